@@ -1,0 +1,94 @@
+"""What an actuator obeys and what it says of itself."""
+
+from typing import ClassVar, Literal
+
+from zteleop.messages.geometry import Twist
+from zteleop.messages.message import Message
+from zteleop.messages.std import Int16
+
+State = Literal["starting", "idle", "driving", "link lost", "operator idle", "stopped", "fault"]
+
+
+class Pwm(Message):
+    """Pulse lengths as counts of the chip's 4096 a period; more fields may follow, old readers ignore them."""
+
+    ros_type: ClassVar[str] = "zteleop_msgs/msg/Pwm"
+
+    steering_ticks: Int16
+    throttle_ticks: Int16
+
+
+class Beat(Message):
+    """The robot's own clock, for commands to echo; a new epoch is a new start."""
+
+    ros_type: ClassVar[str] = "zteleop_msgs/msg/Beat"
+
+    epoch: int
+    time: float
+
+
+class Channel(Message):
+    """One output of the vehicle and its calibration; min is full right or full reverse."""
+
+    ros_type: ClassVar[str] = "zteleop_msgs/msg/Channel"
+
+    name: str
+    channel: int
+    min_us: float
+    neutral_us: float
+    max_us: float
+    min_ticks: int
+    neutral_ticks: int
+    max_ticks: int
+
+
+class Vehicle(Message):
+    """What an input must know of the robot it drives; said twice a second."""
+
+    ros_type: ClassVar[str] = "zteleop_msgs/msg/Vehicle"
+
+    kind: Literal["ackermann", "differential"]
+    channels: list[Channel]
+    max_speed: float
+    max_turn: float
+    """rad/s; for a car, at full speed and full lock."""
+    wheelbase: float
+    """m between the axles; 0 where there is only one."""
+    max_steering_angle: float
+    """rad; 0 where nothing steers."""
+    operator_silence: float
+    """s without an act until neutral."""
+
+
+class Pulse(Message):
+    """What one channel is told now."""
+
+    ros_type: ClassVar[str] = "zteleop_msgs/msg/Pulse"
+
+    name: str
+    channel: int
+    fraction: float
+    """-1 to 1 of the channel's range."""
+    pulse_us: float
+    duty_ticks: int
+
+
+class DriveStatus(Message):
+    """What the actuator does, on whose word, and why."""
+
+    ros_type: ClassVar[str] = "zteleop_msgs/msg/DriveStatus"
+
+    state: State
+    why: str
+    source: str
+    operator: str
+    """Sender of the command obeyed, in hexadecimal; empty when nobody drives."""
+    wanted: Twist
+    applied: Twist
+    pulses: list[Pulse]
+    seq: int
+    """Of the last command accepted."""
+    written: float
+    """When its pulses were on the chip, by the robot's clock."""
+    refused: int
+    clamped: int
