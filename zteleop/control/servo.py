@@ -1,0 +1,43 @@
+"""One channel's calibration: a fraction of full range to a pulse width and back."""
+
+from typing import Annotated
+
+from msgspec import Meta, Struct
+
+from zteleop.messages import Channel
+
+PulseWidth = Annotated[float, Meta(ge=500, le=2500)]
+
+
+class Servo(Struct, frozen=True, forbid_unknown_fields=True):
+    """A servo or an ESC; swap min_us and max_us to reverse it. Positive is left, or forward."""
+
+    channel: Annotated[int, Meta(ge=0, le=15)]
+    min_us: PulseWidth = 1000.0
+    neutral_us: PulseWidth = 1500.0
+    max_us: PulseWidth = 2000.0
+    slew_rate: Annotated[float, Meta(gt=0)] | None = None
+    """Fractions of full range a second; None is as fast as it can."""
+
+    def __post_init__(self) -> None:
+        if not min(self.min_us, self.max_us) < self.neutral_us < max(self.min_us, self.max_us):
+            raise ValueError(
+                f"neutral_us must lie between min_us and max_us, "
+                f"found {self.min_us:g}, {self.neutral_us:g}, {self.max_us:g}"
+            )
+
+    def pulse_us(self, fraction: float) -> float:
+        """Map -1, 0, 1 to min, neutral, max; beyond them stays at the end."""
+        end = self.max_us if fraction > 0 else self.min_us
+        return self.neutral_us + min(1.0, abs(fraction)) * (end - self.neutral_us)
+
+    def fraction(self, pulse_us: float) -> float:
+        """Map a pulse width back to a fraction; a width beyond the ends gives more than 1."""
+        span = pulse_us - self.neutral_us
+        towards_max = span * (self.max_us - self.neutral_us) > 0
+        return span / (self.max_us - self.neutral_us if towards_max else self.neutral_us - self.min_us)
+
+    def describe(self, name: str, tick_us: float) -> Channel:
+        """Return the calibration in microseconds and in ticks of the chip."""
+        widths = (self.min_us, self.neutral_us, self.max_us)
+        return Channel(name, self.channel, *widths, *(round(width / tick_us) for width in widths))
