@@ -1,0 +1,176 @@
+"""The straight line from commands to pulses: gate -> mux -> limiter -> mixer -> servo."""
+
+from typing import NamedTuple
+
+from msgspec import Struct, field
+
+from zteleop.control.gate import Deadlines, Gate, Refusal
+from zteleop.control.limiter import Limits, TwistLimiter, WheelLimiter
+from zteleop.control.mixer import Ackermann, Mixer, Wheels
+from zteleop.control.mux import Claim, Mux, Source
+from zteleop.control.proof import Proof, Prover
+from zteleop.control.servo import Servo
+from zteleop.messages import Beat, Pwm, State, Twist
+
+DONKEYCAR = {
+    "throttle": Servo(channel=0, min_us=897.6, neutral_us=1509.6, max_us=2040.0),
+    "steering": Servo(channel=1, min_us=1183.2, neutral_us=1530.0, max_us=1876.8),
+}
+"""220, 370, 500 and 290, 375, 460 ticks at 60 Hz, as Donkeycar ships them."""
+
+SOURCES = {
+    "web": Source(priority=100),
+    "gamepad": Source(priority=95),
+    "keyboard": Source(priority=90),
+    "buttons": Source(priority=80),
+    "program": Source(priority=50, silence=0.5),
+}
+
+
+class DriveSettings(Struct, frozen=True, forbid_unknown_fields=True):
+    """The vehicle, who may drive it, and its bounds."""
+
+    mixer: Mixer = Ackermann()
+    servos: dict[str, Servo] = field(default_factory=DONKEYCAR.copy)
+    sources: dict[str, Source] = {}
+    """besides, or instead of, those every robot knows"""
+    limits: Limits = Limits()
+    deadlines: Deadlines = Deadlines()
+
+    @property
+    def known_sources(self) -> dict[str, Source]:
+        return SOURCES | self.sources
+
+    def __post_init__(self) -> None:
+        if set(self.servos) != self.mixer.wheels:
+            raise ValueError(f"servos must be {_names(self.mixer.wheels)}, found {_names(self.servos)}")
+        channels = [servo.channel for servo in self.servos.values()]
+        if len(set(channels)) < len(channels):
+            raise ValueError(f"each servo needs a channel of its own, found {channels}")
+
+
+class Step(NamedTuple):
+    """What one step decided."""
+
+    claim: Claim | None
+    wheels: Wheels
+    pulse_us: dict[int, float]
+
+
+class Drive:
+    """Takes commands in, gives pulses out; owns no clock and no chip."""
+
+    def __init__(self, settings: DriveSettings, tick_us: float, epoch: int, now: float) -> None:
+        self.settings = settings
+        self.gate = Gate(settings.deadlines, epoch, now)
+        self._sources = settings.known_sources
+        self.mux = Mux(self._sources, settings.deadlines.operator)
+        self.refused = self.clamped = 0
+        self.last_refusal: tuple[str, Refusal, float] | None = None
+        self._limiter = TwistLimiter(settings.limits, settings.mixer)
+        self._wheel_limiter = WheelLimiter(settings.limits, settings.mixer, settings.servos)
+        self._tick_us = tick_us
+        self._neutral_ticks = {name: round(s.neutral_us / tick_us) for name, s in settings.servos.items()}
+        self._foreign: dict[str, Prover] = {}
+        self._stepped = now
+
+    def late(self, now: float) -> bool:
+        """Say whether the robot itself was stopped since the last step."""
+        return now - self._stepped > self.settings.deadlines.late_step
+
+    def restart(self, epoch: int, now: float) -> None:
+        """Forget every claim and begin a new epoch."""
+        self.gate.restart(epoch, now)
+        self.mux.clear()
+        self._stepped = now
+
+    def receive(self, source: str, command: Twist | Pwm, proof: Proof | None, now: float) -> Refusal | None:
+        """Judge a command that arrived; return why it does not count."""
+        moving = self._moves(command)
+        if proof is None and self._sources[source].trust == "arrival":
+            proof = self._vouch(source, moving, now)
+        refusal = self._judge(source, command, proof, moving, now)
+        if refusal:
+            self.refused += 1
+            self.last_refusal = (source, refusal, now)
+        return refusal
+
+    def step(self, now: float) -> Step:
+        """Decide the pulses of now."""
+        self._stepped = now
+        claim = self.mux.select(now)
+        wheels = self._wheel_limiter.limit(self._obey(claim, now), now)
+        servos = self.settings.servos
+        if wheels is None:
+            return Step(None, dict.fromkeys(servos, 0.0), {s.channel: s.neutral_us for s in servos.values()})
+        return Step(claim, wheels, {s.channel: s.pulse_us(wheels[name]) for name, s in servos.items()})
+
+    def explain(self, now: float) -> tuple[State, str]:
+        """Say in which state the robot is, and why, in one sentence."""
+        claim = self.mux.select(now)
+        if claim:
+            return "driving", f"{claim.source} drives"
+        state, why = self._rest(now)
+        if self.last_refusal and now - self.last_refusal[2] < 1.0:
+            why += f"; {self.last_refusal[0]} is refused: {self.last_refusal[1]}"
+        return state, why
+
+    def _rest(self, now: float) -> tuple[State, str]:
+        newest = max(self.mux.claims, key=lambda claim: claim.at, default=None)
+        if newest is None:
+            return "idle", "nobody drives"
+        if self.mux.idle(newest, now):
+            return "operator idle", f"no act on {newest.source} for {now - newest.acted:.1f} s"
+        return "link lost", f"{newest.source} has been silent for {now - newest.at:.1f} s"
+
+    def _judge(
+        self, source: str, command: Twist | Pwm, proof: Proof | None, moving: bool, now: float
+    ) -> Refusal | None:
+        refusal = self.gate.judge(proof, moving, now)
+        if refusal or proof is None:
+            return refusal
+        if not moving:
+            self.mux.release(proof.sender)
+            return None
+        if isinstance(command, Pwm) and not isinstance(self.settings.mixer, Ackermann):
+            return Refusal.NO_SUCH_CHANNEL
+        claim = Claim(source, proof.sender, command, proof.acted, now, proof.seq)
+        return None if self.mux.offer(claim) else Refusal.HELD
+
+    def _vouch(self, source: str, moving: bool, now: float) -> Proof | None:
+        """Make the proof of a foreign sender from its arrival: each command is an act of now."""
+        prover = self._foreign.setdefault(source, Prover(-len(self._foreign) - 1))
+        beat = Beat(self.gate.epoch, now)
+        prover.act(beat)
+        return prover.prove(beat, moving, now)
+
+    def _moves(self, command: Twist | Pwm) -> bool:
+        if isinstance(command, Pwm):
+            neutral = self._neutral_ticks
+            return (command.steering_ticks, command.throttle_ticks) != (
+                neutral.get("steering"),
+                neutral.get("throttle"),
+            )
+        return command.linear.x != 0 or command.angular.z != 0
+
+    def _obey(self, claim: Claim | None, now: float) -> Wheels | None:
+        if claim is None:
+            self._limiter.limit(None, now)
+            return None
+        cap = self._sources[claim.source].max_speed
+        if isinstance(claim.command, Twist):
+            twist = self._limiter.limit(claim.command, now, cap)
+            return self.settings.mixer.mix(twist) if twist else None
+        self._limiter.limit(None, now)
+        wheels = self._wheel_limiter.cap(self._wheels(claim.command), cap)
+        self._limiter.follow(self.settings.mixer.unmix(wheels))
+        return wheels
+
+    def _wheels(self, pwm: Pwm) -> Wheels:
+        ticks = {"steering": pwm.steering_ticks, "throttle": pwm.throttle_ticks}
+        wheels = {name: self.settings.servos[name].fraction(n * self._tick_us) for name, n in ticks.items()}
+        return {name: max(-1.0, min(1.0, fraction)) for name, fraction in wheels.items()}
+
+
+def _names(names: object) -> str:
+    return ", ".join(sorted(names))  # type: ignore[call-overload]

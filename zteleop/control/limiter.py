@@ -1,0 +1,123 @@
+"""Bounds on what passed the gate. None passes through: nothing softens a stop."""
+
+from typing import Annotated
+
+from msgspec import Meta, Struct
+
+from zteleop.control import curvature
+from zteleop.control.mixer import Ackermann, Mixer, Wheels
+from zteleop.control.servo import Servo
+from zteleop.messages import Twist
+
+Positive = Annotated[float, Meta(gt=0, le=1000)]
+
+
+class Limits(Struct, frozen=True, forbid_unknown_fields=True):
+    """Bounds of motion; None is the vehicle's own."""
+
+    speed: Positive | None = None
+    """m/s"""
+    turn: Positive | None = None
+    """rad/s"""
+    acceleration: Positive = 3.0
+    """m/s^2"""
+    turn_acceleration: Positive = 10.0
+    """rad/s^2; a car's steering follows its curvature instead"""
+    pulse_duty: Annotated[float, Meta(gt=0, le=1)] = 1.0
+    """share of the time for which the throttle is obeyed"""
+    pulse_duty_period: Annotated[float, Meta(gt=0, le=10)] = 0.5
+    """s"""
+
+
+class TwistLimiter:
+    """Follows the wanted twist no faster than the limits allow, on the same curve."""
+
+    def __init__(self, limits: Limits, mixer: Mixer) -> None:
+        self._limits = limits
+        self._steers = isinstance(mixer, Ackermann)
+        self._speed = min(limits.speed or mixer.max_speed, mixer.max_speed)
+        self._turn = min(limits.turn or mixer.max_turn, mixer.max_turn)
+        self._last = (0.0, 0.0)
+        self._then: float | None = None
+
+    def follow(self, applied: Twist | None) -> None:
+        """Start the next ramp from what was applied by other means; None is rest."""
+        self._last = (applied.linear.x, applied.angular.z) if applied else (0.0, 0.0)
+
+    def limit(self, wanted: Twist | None, now: float, max_speed: float | None = None) -> Twist | None:
+        """Return the next twist, at most `max_speed` m/s fast."""
+        dt = now - self._then if self._then is not None else 0.0
+        self._then = now
+        if wanted is None:
+            self.follow(None)
+            return None
+        speed, turn = self._scale(wanted.linear.x, wanted.angular.z, max_speed or self._speed)
+        step = self._steer if self._steers else self._rotate
+        self._last = step(speed, turn, dt)
+        return Twist.planar(*self._last)
+
+    def _scale(self, speed: float, turn: float, max_speed: float) -> tuple[float, float]:
+        excess = max(1.0, abs(speed) / min(max_speed, self._speed))
+        if speed or not self._steers:
+            excess = max(excess, abs(turn) / self._turn)
+        return speed / excess, turn / excess
+
+    def _steer(self, speed: float, turn: float, dt: float) -> tuple[float, float]:
+        bend = curvature.of(speed, turn)
+        speed = _approach(self._last[0], speed, self._limits.acceleration * dt)
+        return speed, curvature.turn(speed, bend)
+
+    def _rotate(self, speed: float, turn: float, dt: float) -> tuple[float, float]:
+        reached = _approach(self._last[0], speed, self._limits.acceleration * dt)
+        share = reached / speed if speed else 1.0
+        if 0 < share < 1:
+            turn *= share
+        return reached, _approach(self._last[1], turn, self._limits.turn_acceleration * dt)
+
+
+class WheelLimiter:
+    """Slews each channel, and obeys the driven ones for a share of the time only."""
+
+    def __init__(self, limits: Limits, mixer: Mixer, servos: dict[str, Servo]) -> None:
+        self._limits, self._mixer = limits, mixer
+        self._rates = {name: servo.slew_rate for name, servo in servos.items()}
+        if isinstance(mixer, Ackermann) and self._rates["throttle"] is None:
+            self._rates["throttle"] = limits.acceleration / mixer.max_speed
+        self._rest: Wheels = dict.fromkeys(servos, 0.0)
+        self._last: Wheels = self._rest
+        self._then: float | None = None
+
+    def limit(self, wheels: Wheels | None, now: float) -> Wheels | None:
+        """Return the next position of each wheel."""
+        dt = now - self._then if self._then is not None else 0.0
+        self._then = now
+        if wheels is None:
+            self._last = self._rest
+            return None
+        self._last = {name: self._slew(name, wheels[name], dt) for name in wheels}
+        return self._last if self._obeys(now) else self._coast(self._last)
+
+    def cap(self, wheels: Wheels, max_speed: float | None) -> Wheels:
+        """Bound the driven wheels of a command that names pulses, not speeds, in m/s."""
+        speed = min(bound for bound in (max_speed, self._limits.speed, self._mixer.max_speed) if bound)
+        top = speed / self._mixer.max_speed
+        return {
+            name: max(-top, min(top, fraction)) if name in self._mixer.driven else fraction
+            for name, fraction in wheels.items()
+        }
+
+    def _slew(self, name: str, fraction: float, dt: float) -> float:
+        rate = self._rates[name]
+        return fraction if rate is None else _approach(self._last[name], fraction, rate * dt)
+
+    def _obeys(self, now: float) -> bool:
+        return (
+            now % self._limits.pulse_duty_period <= self._limits.pulse_duty * self._limits.pulse_duty_period
+        )
+
+    def _coast(self, wheels: Wheels) -> Wheels:
+        return {name: 0.0 if name in self._mixer.driven else wheels[name] for name in wheels}
+
+
+def _approach(value: float, target: float, step: float) -> float:
+    return value + max(-step, min(step, target - value))

@@ -1,0 +1,76 @@
+"""Who drives: among the sources that claim the robot, the one of the highest priority.
+
+Within one source the sender that drives keeps it until it lets go or falls silent.
+"""
+
+from collections.abc import Iterable
+from typing import Annotated, Literal, NamedTuple
+
+from msgspec import Meta, Struct
+
+from zteleop.messages import Pwm, Twist
+
+
+class Source(Struct, frozen=True, forbid_unknown_fields=True):
+    """A kind of sender and what it may do."""
+
+    priority: Annotated[int, Meta(ge=0, le=255)]
+    silence: Annotated[float, Meta(gt=0, le=1)] = 0.3
+    """s without a command until neutral"""
+    trust: Literal["proof", "arrival"] = "proof"
+    """arrival: obey foreign senders that cannot prove the age of what they say"""
+    max_speed: Annotated[float, Meta(gt=0)] | None = None
+    """m/s"""
+
+
+class Claim(NamedTuple):
+    """A command that passed the gate."""
+
+    source: str
+    sender: int
+    command: Twist | Pwm
+    acted: float
+    at: float
+    seq: int
+
+
+class Mux:
+    """Keeps the claim of each source until it is let go."""
+
+    def __init__(self, sources: dict[str, Source], operator_silence: float) -> None:
+        self._sources, self._operator_silence = sources, operator_silence
+        self._ranked = sorted(sources, key=lambda name: -sources[name].priority)
+        self._claims: dict[str, Claim] = {}
+
+    @property
+    def claims(self) -> Iterable[Claim]:
+        return self._claims.values()
+
+    def offer(self, claim: Claim) -> bool:
+        """Take a claim; False when another sender holds its source."""
+        holder = self._claims.get(claim.source)
+        if holder and holder.sender != claim.sender and not self.silent(holder, claim.at):
+            return False
+        self._claims[claim.source] = claim
+        return True
+
+    def release(self, sender: int) -> None:
+        """Let go whatever a sender holds."""
+        self._claims = {name: claim for name, claim in self._claims.items() if claim.sender != sender}
+
+    def clear(self) -> None:
+        self._claims.clear()
+
+    def select(self, now: float) -> Claim | None:
+        """Return the claim to obey, or None when nobody may drive."""
+        for name in self._ranked:
+            claim = self._claims.get(name)
+            if claim and not self.silent(claim, now) and not self.idle(claim, now):
+                return claim
+        return None
+
+    def silent(self, claim: Claim, now: float) -> bool:
+        return not now - claim.at <= self._sources[claim.source].silence
+
+    def idle(self, claim: Claim, now: float) -> bool:
+        return not now - claim.acted <= self._operator_silence

@@ -1,0 +1,71 @@
+"""Proof that a command is new, in times of the robot's own clock.
+
+No two clocks agree, and a network delivers late what it queued. So the sender echoes
+the robot's beats: whatever carries a beat was made after the robot sent it.
+"""
+
+from typing import NamedTuple
+
+from zteleop.messages import Beat
+
+NEVER = float("-inf")
+
+
+class Proof(NamedTuple):
+    """What every command carries; the three times are the robot's, in seconds."""
+
+    sender: int
+    """random per publisher"""
+    seq: int
+    epoch: int
+    """the start of the robot that the times belong to"""
+    beat: float
+    """the newest beat heard"""
+    acted: float
+    """the newest heard when the operator last acted"""
+    began: float
+    """the newest heard when this claim left neutral"""
+
+
+class Prover:
+    """Makes the proofs of one sender."""
+
+    def __init__(self, sender: int, silence: float = 0.5) -> None:
+        self._sender, self._silence = sender, silence
+        self._seq = 0
+        self._epoch = -1
+        self._acted = self._began = NEVER
+        self._moving = False
+        self._then = NEVER
+
+    @property
+    def sender(self) -> int:
+        return self._sender
+
+    def act(self, beat: Beat | None) -> None:
+        """Note that the operator acted, having heard `beat`."""
+        if beat:
+            self._hear(beat)
+            self._acted = beat.time
+
+    def prove(self, beat: Beat | None, moving: bool, now: float) -> Proof | None:
+        """Return the proof of a command sent now, by the sender's clock; None before the first beat.
+
+        A claim that was moving before the robot started never has a beginning:
+        it must be let go, or fall silent, first.
+        """
+        if beat:
+            self._hear(beat)
+        leaves_neutral = moving and (not self._moving or now - self._then > self._silence)
+        if leaves_neutral:
+            self._began = self._acted
+        self._moving, self._then = moving, now
+        if beat is None:
+            return None
+        self._seq += 1
+        return Proof(self._sender, self._seq, beat.epoch, beat.time, self._acted, self._began)
+
+    def _hear(self, beat: Beat) -> None:
+        if beat.epoch != self._epoch:
+            self._epoch = beat.epoch
+            self._acted = self._began = NEVER
