@@ -10,7 +10,7 @@ State = Literal["starting", "idle", "driving", "link lost", "operator idle", "st
 
 
 class Pwm(Message):
-    """Pulse lengths as counts of the chip's 4096 a period; more fields may follow, old readers ignore them."""
+    """Pulse lengths as counts of the chip's 4096 a period; fields that follow are ignored by old readers."""
 
     ros_type: ClassVar[str] = "zteleop_msgs/msg/Pwm"
 

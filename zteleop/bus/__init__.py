@@ -1,0 +1,1 @@
+"""How messages travel: the only zenoh, and the one clock."""

@@ -1,0 +1,88 @@
+"""Messages to bytes and back: JSON, the same on the wire, in a shell and in a browser.
+
+The sample's encoding names the type, such as `application/json;geometry_msgs/msg/Twist`.
+"""
+
+import struct
+from collections.abc import Callable, Iterable
+from math import isfinite
+from typing import Any
+
+import msgspec
+
+from zteleop.control.proof import Proof
+from zteleop.errors import MessageError
+from zteleop.messages import MESSAGES, Message
+
+MAX_BYTES = 1 << 20
+_JSON = "application/json;"
+_PROOF = struct.Struct("<QQQddd")
+_encode_json = msgspec.json.Encoder().encode
+
+Decoder = Callable[[bytes], Message]
+
+
+def encoding_of(kind: type[Message]) -> str:
+    """Return the encoding that tells a reader the type."""
+    return _JSON + kind.ros_type
+
+
+def encode(message: Message) -> bytes:
+    """Return a message's bytes; raises MessageError for a number that is not finite."""
+    try:
+        payload = _encode_json(message)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise MessageError(f"cannot send {type(message).__name__}: {error}") from None
+    if b"null" in payload:  # how JSON writes NaN and infinity
+        _check_finite(msgspec.to_builtins(message), type(message).__name__)
+    return payload
+
+
+def decoders(kinds: Iterable[type[Message]]) -> dict[str, Decoder]:
+    """Return how to read each encoding a topic accepts."""
+    return {encoding_of(kind): msgspec.json.Decoder(kind).decode for kind in kinds}
+
+
+def decode(payload: bytes, encoding: str, accepted: dict[str, Decoder]) -> Message:
+    """Return the message that bytes are; raises MessageError when they are none of those accepted."""
+    decoder = accepted.get(encoding)
+    if decoder is None:
+        expected = " or ".join(name.removeprefix(_JSON) for name in accepted)
+        raise MessageError(f"expected {expected}, found {encoding.removeprefix(_JSON)!r}")
+    if len(payload) > MAX_BYTES:
+        raise MessageError(f"expected at most {MAX_BYTES} bytes, found {len(payload)}")
+    try:
+        return decoder(payload)
+    except (msgspec.MsgspecError, RecursionError, UnicodeDecodeError) as error:
+        raise MessageError(f"not a {encoding.removeprefix(_JSON)}: {error}") from None
+
+
+def decode_any(payload: bytes, encoding: str) -> Any:
+    """Return bytes of any type as plain values; raises MessageError when they cannot be read."""
+    kind = MESSAGES.get(encoding.removeprefix(_JSON))
+    if kind:
+        return msgspec.to_builtins(decode(payload, encoding, decoders([kind])))
+    if len(payload) > MAX_BYTES:
+        raise MessageError(f"{len(payload)} bytes of {encoding!r}")
+    try:
+        return msgspec.json.decode(payload)
+    except (msgspec.MsgspecError, RecursionError, UnicodeDecodeError) as error:
+        raise MessageError(f"{len(payload)} bytes of {encoding!r}, not JSON: {error}") from None
+
+
+def pack_proof(proof: Proof) -> bytes:
+    """Return the 48 bytes a proof travels as: three uint64, three float64, little-endian."""
+    return _PROOF.pack(*proof)
+
+
+def unpack_proof(attachment: bytes) -> Proof | None:
+    """Return the proof in an attachment; None when there is none."""
+    return Proof._make(_PROOF.unpack(attachment)) if len(attachment) == _PROOF.size else None
+
+
+def _check_finite(value: Any, path: str) -> None:
+    if isinstance(value, float) and not isfinite(value):
+        raise MessageError(f"expected a finite number, found {value} at {path}")
+    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    for key, item in items:
+        _check_finite(item, f"{path}.{key}")

@@ -1,0 +1,68 @@
+"""Names of robots and topics, and the keys they stand for.
+
+`/archangel/odom`, `archangel/odom` and, with a robot selected, `odom` are `robot/archangel/odom`.
+Nothing else reaches a key expression: a name with a wildcard in it would address every robot.
+"""
+
+import re
+from typing import NamedTuple
+
+from zteleop.bus.topics import ALIASES, TOPICS
+from zteleop.errors import ConfigError
+
+_ROBOT = re.compile(r"[a-z0-9][a-z0-9_-]{0,62}")
+_CHUNK = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_-]{0,62}")
+
+
+class Name(NamedTuple):
+    """A robot and a topic path under it."""
+
+    robot: str
+    path: str
+
+    @property
+    def key(self) -> str:
+        return f"robot/{self.robot}/{self.path}"
+
+
+def robot_name(text: str) -> str:
+    """Return a robot's name as it is; raises ConfigError when it is none."""
+    if not _ROBOT.fullmatch(text):
+        raise ConfigError(
+            f"a robot's name is 1 to 63 of a-z, 0-9, _ and -, starting with a letter or digit; found {text!r}"
+        )
+    return text
+
+
+def chunk(text: str, what: str) -> str:
+    """Return one part of a name as it is; raises ConfigError when it cannot be one."""
+    if not _CHUNK.fullmatch(text):
+        raise ConfigError(f"{what} is made of a-z, A-Z, 0-9, _ and -; found {text!r}")
+    return text
+
+
+def resolve(text: str, robot: str | None) -> Name:
+    """Return what a topic's name stands for; raises ConfigError when it says no robot or is no name."""
+    parts = text.removeprefix("robot/").strip("/").split("/")
+    absolute = text.startswith(("/", "robot/"))
+    if not absolute and (len(parts) == 1 or _known(parts[0])):
+        if robot is None:
+            raise ConfigError(f"topic {text!r} names no robot; say ROBOT/{text} or --robot ROBOT")
+        parts = [robot, *parts]
+    if len(parts) < 2:
+        raise ConfigError(
+            f"a topic is ROBOT/TOPIC, such as {parts[0] or 'archangel'}/cmd_vel; found {text!r}"
+        )
+    path = [ALIASES.get(parts[1], parts[1]), *parts[2:]]
+    return Name(robot_name(parts[0]), "/".join(chunk(part, "a topic's name") for part in path))
+
+
+def split_key(key: str) -> Name | None:
+    """Return what a key stands for; None when it is not a robot's or holds a wildcard."""
+    root, _, rest = key.partition("/")
+    robot, _, path = rest.partition("/")
+    return Name(robot, path) if root == "robot" and path and "*" not in key else None
+
+
+def _known(part: str) -> bool:
+    return part in TOPICS or part in ALIASES

@@ -1,0 +1,206 @@
+"""A node: a name on the bus, with publishers, subscriptions and timers, single-threaded for its user."""
+
+import secrets
+import signal
+import sys
+import threading
+from collections.abc import Callable
+from typing import Any, Self, TypeVar
+
+import zenoh
+
+from zteleop.bus import clock, codec, presence
+from zteleop.bus.heard import Heard
+from zteleop.bus.log import NodeLog
+from zteleop.bus.loop import Loop
+from zteleop.bus.names import Name, chunk, resolve, robot_name
+from zteleop.bus.publisher import Publisher
+from zteleop.bus.session import BusSettings, open_session
+from zteleop.bus.subscription import Pump, Received, Subscription
+from zteleop.bus.topics import topic_of
+from zteleop.control.proof import Prover
+from zteleop.errors import ConfigError
+from zteleop.messages import Beat, Log, Message, Vehicle
+
+M = TypeVar("M", bound=Message)
+Types = type[M] | tuple[type[M], ...]
+_SENDER_BITS = 53  # what every JSON reader can count
+
+
+class Node:
+    """Joins the bus for as long as its `with` lasts; handlers and timers run in `spin`."""
+
+    def __init__(
+        self,
+        name: str,
+        robot: str | None = None,
+        bus: BusSettings | None = None,
+        *,
+        session: zenoh.Session | None = None,
+    ) -> None:
+        self.name, self.robot = chunk(name, "a node's name"), robot_name(robot) if robot else None
+        self.session = session or open_session(bus or BusSettings())
+        self._loop = Loop(before_each=self._listen)
+        self._spinning = False
+        self._pumps: list[Pump[Any]] = []
+        self._tokens: list[zenoh.LivelinessToken] = []
+        self._heard: dict[str, Heard] = {}
+        self._log_publisher: Publisher[Log] | None = None
+        self.log = NodeLog(name, self._say, _to_stderr)
+        if self.robot:
+            self._token(presence.node_key(self.robot, self.name))
+            self._log_publisher = self.publisher("log", Log)
+
+    def __enter__(self) -> Self:
+        if threading.current_thread() is threading.main_thread():
+            for number in (signal.SIGTERM, signal.SIGHUP):
+                if signal.getsignal(number) == signal.SIG_DFL:
+                    signal.signal(number, _end)
+        return self
+
+    def __exit__(self, *exc: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Leave the bus. Unclosed, zenoh would keep the process for ever."""
+        self.session.close()  # type: ignore[no-untyped-call]
+        for pump in self._pumps:
+            pump.close()
+        self._loop.close()
+
+    def publisher(self, topic: str, types: Types[M], *, source: str = "program") -> Publisher[M]:
+        """Return what says messages on a topic; on a command topic, as a source of that kind.
+
+        Raises ConfigError when the topic's name is none, or the topic takes other types.
+        """
+        name, kinds = resolve(topic, self.robot), _tuple(types)
+        kind = topic_of(name.path)
+        if kind.types and not set(kinds) <= set(kind.types):
+            takes = " or ".join(accepted.__name__ for accepted in kind.types)
+            raise ConfigError(f"{topic} takes {takes}, found {', '.join(k.__name__ for k in kinds)}")
+        if not kind.command:
+            return Publisher(self._declare(name, kinds, kind.urgent), kinds)
+        if name.path == kind.name:
+            name = Name(name.robot, f"{kind.name}/{chunk(source, 'a source')}")
+        heard = self.heard(name.robot)
+        return Publisher(
+            self._declare(name, kinds, kind.urgent),
+            kinds,
+            Prover(secrets.randbits(_SENDER_BITS)),
+            heard,
+            self._listen_now,
+        )
+
+    def subscription(
+        self,
+        topic: str,
+        types: Types[M],
+        handler: Callable[[Received[M]], object] | None = None,
+        *,
+        depth: int | None = None,
+    ) -> Subscription[M]:
+        """Return an inbox of a topic; of a command topic, from all its sources.
+
+        With a handler, `spin` hands it each message; without, iterate over the inbox.
+        """
+        name, kinds = resolve(topic, self.robot), _tuple(types)
+        kind = topic_of(name.path)
+        if kind.command and name.path == kind.name:
+            name = Name(name.robot, f"{kind.name}/**")
+        depth = depth or kind.depth
+        subscriber = self.session.declare_subscriber(name.key, zenoh.handlers.RingChannel(depth))
+        self._token(presence.endpoint_key(name, "sub", self.name, kinds))
+        inbox: Subscription[M] = Subscription(subscriber, codec.decoders(kinds), self._complain)
+        if handler:
+            self._pumps.append(Pump(inbox, handler, depth, self._loop))
+        return inbox
+
+    def on(self, topic: str, types: Types[M]) -> Callable[[Callable[[M], object]], Callable[[M], object]]:
+        """Decorate a function to handle each message of a topic in `spin`."""
+
+        def decorate(function: Callable[[M], object]) -> Callable[[M], object]:
+            self.subscription(topic, types, lambda received: function(received.message))
+            return function
+
+        return decorate
+
+    def every(self, period: float) -> Callable[[Callable[[], object]], Callable[[], object]]:
+        """Decorate a function to run every `period` seconds in `spin`."""
+        if not period > 0:
+            raise ConfigError(f"a timer's period must be more than 0 s, found {period}")
+
+        def decorate(function: Callable[[], object]) -> Callable[[], object]:
+            self._loop.every(period, function)
+            return function
+
+        return decorate
+
+    def watch(self, file: int, action: Callable[[], object]) -> None:
+        """Run an action in `spin` whenever a file descriptor can be read."""
+        self._loop.watch(file, action)
+
+    def unwatch(self, file: int) -> None:
+        self._loop.unwatch(file)
+
+    def spin(self, seconds: float | None = None) -> None:
+        """Run handlers and timers until `stop`, a signal, or for some seconds."""
+        self._spinning = True
+        try:
+            self._loop.run(None if seconds is None else clock.now() + seconds)
+        finally:
+            self._spinning = False
+
+    def stop(self) -> None:
+        """End `spin`; safe from any thread."""
+        self._loop.stop()
+
+    def heard(self, robot: str | None = None) -> Heard:
+        """Return what is heard of a robot, by default the node's own."""
+        robot = robot or self.robot
+        if robot is None:
+            raise ConfigError(f"node {self.name} has no robot; say Node({self.name!r}, robot=...)")
+        if robot not in self._heard:
+            beats = self.subscription(f"/{robot}/beat", Beat)
+            self._heard[robot] = Heard(beats, self.subscription(f"/{robot}/vehicle", Vehicle))
+        return self._heard[robot]
+
+    def _declare(self, name: Name, kinds: tuple[type[Message], ...], urgent: bool) -> zenoh.Publisher:
+        self._token(presence.endpoint_key(name, "pub", self.name, kinds))
+        return self.session.declare_publisher(
+            name.key,
+            congestion_control=zenoh.CongestionControl.DROP,
+            priority=zenoh.Priority.REAL_TIME if urgent else zenoh.Priority.DATA,
+            express=urgent,
+        )
+
+    def _listen(self) -> None:
+        for heard in self._heard.values():
+            heard.listen()
+
+    def _listen_now(self) -> None:
+        """Listen on behalf of a publisher; within `spin` what counts was heard before the handler began."""
+        if not self._spinning:
+            self._listen()
+
+    def _token(self, key: str) -> None:
+        self._tokens.append(self.session.liveliness().declare_token(key))
+
+    def _complain(self, text: str) -> None:
+        self.log.warn(text, text.partition(":")[0])
+
+    def _say(self, log: Log) -> None:
+        if self._log_publisher:
+            self._log_publisher.publish(log)
+
+
+def _tuple(types: Types[M]) -> tuple[type[M], ...]:
+    return types if isinstance(types, tuple) else (types,)
+
+
+def _to_stderr(line: str) -> None:
+    sys.stderr.write(line + "\n")
+
+
+def _end(number: int, frame: object) -> None:
+    """Let a signal unwind every `with`, as Ctrl-C does."""
+    raise SystemExit(128 + number)

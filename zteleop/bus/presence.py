@@ -1,0 +1,70 @@
+"""Who is there: liveliness tokens that stand for nodes and for what they publish and hear.
+
+    robot/<robot>/live/node/<node>/<process>
+    robot/<robot>/live/pub/<node>/<process>/<type>/<topic...>    and sub likewise
+
+A type's slashes are dots; a process is its host and number. Zenoh removes a token with its process.
+"""
+
+import os
+import re
+import socket
+from collections.abc import Iterable
+from typing import Literal, NamedTuple
+
+import zenoh
+
+from zteleop.bus.names import Name
+from zteleop.messages import Message
+
+Kind = Literal["pub", "sub"]
+
+
+class Endpoint(NamedTuple):
+    """One node's part in one topic."""
+
+    robot: str
+    kind: str
+    node: str
+    process: str
+    type: str
+    topic: str
+
+
+def process() -> str:
+    """Return this process by its host and number, as one part of a key."""
+    host = re.sub(r"[^A-Za-z0-9_-]", "-", socket.gethostname())[:32]
+    return f"{host}-{os.getpid()}"
+
+
+def node_key(robot: str, node: str) -> str:
+    return f"robot/{robot}/live/node/{node}/{process()}"
+
+
+def endpoint_key(name: Name, kind: Kind, node: str, types: Iterable[type[Message]]) -> str:
+    ros_type = next((t.ros_type for t in types), "any").replace("/", ".")
+    return f"robot/{name.robot}/live/{kind}/{node}/{process()}/{ros_type}/{name.path.replace('*', '+')}"
+
+
+def endpoints(session: zenoh.Session) -> list[Endpoint]:
+    """Return what every robot's nodes publish and hear, as all who are connected tell."""
+    found = set()
+    for kind in ("pub", "sub"):
+        for key in _tokens(session, f"robot/*/live/{kind}/**"):
+            _, robot, _, _, node, where, ros_type, topic = key.split("/", 7)
+            found.add(Endpoint(robot, kind, node, where, ros_type.replace(".", "/"), topic.replace("+", "*")))
+    return sorted(found)
+
+
+def holders(session: zenoh.Session, robot: str, node: str) -> list[str]:
+    """Return the processes that run a node of that name for a robot."""
+    return sorted(key.rpartition("/")[2] for key in _tokens(session, f"robot/{robot}/live/node/{node}/*"))
+
+
+def robots(session: zenoh.Session) -> list[str]:
+    """Return the robots that have an actuator."""
+    return sorted({key.split("/")[1] for key in _tokens(session, "robot/*/live/node/actuator/*")})
+
+
+def _tokens(session: zenoh.Session, selector: str) -> set[str]:
+    return {str(reply.ok.key_expr) for reply in session.liveliness().get(selector, timeout=2.0) if reply.ok}

@@ -1,0 +1,85 @@
+"""Says messages on one topic; on a command topic with the proof that they are new."""
+
+from collections.abc import Callable
+from typing import Generic, TypeVar
+
+import zenoh
+
+from zteleop.bus import clock, codec
+from zteleop.bus.heard import Heard
+from zteleop.control.proof import Prover
+from zteleop.errors import MessageError
+from zteleop.messages import Int16MultiArray, Message, Pwm, Twist, TwistStamped, Vehicle
+
+M = TypeVar("M", bound=Message)
+
+
+class Publisher(Generic[M]):
+    """Publishes messages under one key.
+
+    On a command topic each `publish` is an act of the operator, and each `repeat` only
+    holds on to the last one.
+    """
+
+    def __init__(
+        self,
+        publisher: zenoh.Publisher,
+        types: tuple[type[M], ...],
+        prover: Prover | None = None,
+        heard: Heard | None = None,
+        listen: Callable[[], object] = lambda: None,
+    ) -> None:
+        self._publisher, self._prover, self._heard, self._listen = publisher, prover, heard, listen
+        self._encodings = {kind: zenoh.Encoding(codec.encoding_of(kind)) for kind in types}
+
+    @property
+    def heard(self) -> bool:
+        """Somebody subscribes to this topic."""
+        # The stub calls it a bool; it is an object, and always true.
+        return bool(getattr(self._publisher.matching_status, "matching"))  # noqa: B009
+
+    @property
+    def sender(self) -> str:
+        """What the robot calls this publisher in `drive_status.operator`."""
+        return f"{self._prover.sender:x}" if self._prover else ""
+
+    def publish(self, message: M) -> None:
+        """Say a message, as an act; raises MessageError when it is of another type or not finite."""
+        self.act()
+        self.repeat(message)
+
+    def act(self) -> None:
+        """Note that the operator acted."""
+        if self._prover and self._heard:
+            self._listen()
+            self._prover.act(self._heard.beat)
+
+    def repeat(self, message: M) -> None:
+        """Say a message without a new act."""
+        encoding = self._encodings.get(type(message))
+        if encoding is None:
+            expected = " or ".join(kind.__name__ for kind in self._encodings)
+            raise MessageError(f"expected {expected}, found {type(message).__name__}")
+        payload = codec.encode(message)
+        self._publisher.put(payload, encoding=encoding, attachment=self._proof(message))
+
+    def _proof(self, message: M) -> bytes | None:
+        if not self._prover or not self._heard:
+            return None
+        self._listen()
+        moving = moves(message, self._heard.vehicle)
+        proof = self._prover.prove(self._heard.beat, moving, clock.now())
+        return codec.pack_proof(proof) if proof else None
+
+
+def moves(message: Message, vehicle: Vehicle | None) -> bool:
+    """Say whether a command is anything but neutral."""
+    if isinstance(message, TwistStamped):
+        message = message.twist
+    if isinstance(message, Twist):
+        return message.linear.x != 0 or message.angular.z != 0
+    neutral = {channel.name: channel.neutral_ticks for channel in vehicle.channels} if vehicle else {}
+    rest = (neutral.get("steering"), neutral.get("throttle"))
+    if isinstance(message, Pwm):
+        return (message.steering_ticks, message.throttle_ticks) != rest
+    return not isinstance(message, Int16MultiArray) or tuple(message.data[:2]) != rest

@@ -1,0 +1,142 @@
+"""An inbox: zenoh fills a ring, its reader empties it; what a slow reader misses is the oldest."""
+
+import threading
+from collections.abc import Callable, Iterator
+from typing import Any, Generic, NamedTuple, TypeVar
+
+import zenoh
+
+from zteleop.bus import clock, codec
+from zteleop.bus.codec import Decoder
+from zteleop.bus.loop import Loop
+from zteleop.control.proof import Proof
+from zteleop.errors import MessageError
+from zteleop.messages import Message
+
+M = TypeVar("M", bound=Message)
+
+
+class Received(NamedTuple, Generic[M]):
+    """A message, and how it came."""
+
+    message: M
+    key: str
+    proof: Proof | None
+    at: float
+
+    @property
+    def source(self) -> str:
+        """The last part of the key: the kind of sender, for a command."""
+        return self.key.rpartition("/")[2]
+
+
+class Subscription(Generic[M]):
+    """Messages of one topic; iterate over it, or give it a handler and let the node spin."""
+
+    def __init__(
+        self,
+        subscriber: "zenoh.Subscriber[Any]",
+        accepted: dict[str, Decoder],
+        complain: Callable[[str], None],
+    ) -> None:
+        self.ring, self._accepted, self._complain = subscriber, accepted, complain
+        self.dropped = 0
+
+    def __iter__(self) -> Iterator[M]:
+        """Yield messages as they come, until the node is closed."""
+        while True:
+            try:
+                sample = self.ring.recv()
+            except zenoh.ZError:
+                return
+            received = self.read(sample)
+            if received:
+                yield received.message
+
+    def take(self) -> Iterator[Received[M]]:
+        """Yield what has arrived, without waiting."""
+        while (sample := self.ring.try_recv()) is not None:
+            received = self.read(sample)
+            if received:
+                yield received
+
+    def newest(self) -> M | None:
+        """Return the last of what has arrived since the last call."""
+        message = None
+        for received in self.take():
+            message = received.message
+        return message
+
+    def read(self, sample: zenoh.Sample) -> Received[M] | None:
+        """Return the message in a sample; None, counted and said, when it is none."""
+        key = str(sample.key_expr)
+        if sample.kind != zenoh.SampleKind.PUT or "*" in key:
+            self._drop(key, "a delete or a wildcard is no message")
+            return None
+        try:
+            message: Any = codec.decode(bytes(sample.payload), str(sample.encoding), self._accepted)
+        except MessageError as error:
+            self._drop(key, str(error))
+            return None
+        attachment = sample.attachment
+        proof = codec.unpack_proof(bytes(attachment)) if attachment is not None else None
+        return Received(message, key, proof, clock.now())
+
+    def _drop(self, key: str, why: str) -> None:
+        self.dropped += 1
+        self._complain(f"{key}: dropped: {why}")
+
+
+class Pump(Generic[M]):
+    """Wakes the loop for a subscription's handler.
+
+    Its thread takes one sample and waits until the loop has emptied the ring, so that a
+    flood costs the loop a bounded share, and other topics nothing.
+    """
+
+    def __init__(
+        self,
+        subscription: Subscription[M],
+        handler: Callable[[Received[M]], object],
+        depth: int,
+        loop: Loop,
+    ) -> None:
+        self._subscription, self._handler, self._depth = subscription, handler, depth
+        self._loop = loop
+        self._sample: zenoh.Sample | None = None
+        self._emptied = threading.Event()
+        self._closed = False
+        self._thread = threading.Thread(target=self._wait, daemon=True)
+        self._thread.start()
+
+    def close(self) -> None:
+        """End the thread; the session must be closed first."""
+        self._closed = True
+        self._emptied.set()
+        self._thread.join()
+
+    def _wait(self) -> None:
+        receive = self._subscription.ring.recv
+        while not self._closed:
+            try:
+                self._sample = receive()
+            except zenoh.ZError:
+                return
+            self._emptied.clear()
+            self._loop.call_soon(self._empty)
+            self._emptied.wait()
+
+    def _empty(self) -> None:
+        sample, left = self._sample, self._depth
+        try:
+            while sample is not None:
+                received = self._subscription.read(sample)
+                if received:
+                    self._handler(received)
+                left -= 1
+                if not left:
+                    break
+                self._loop.before_each()
+                sample = self._subscription.ring.try_recv()
+        finally:
+            self._emptied.set()

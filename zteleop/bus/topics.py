@@ -1,0 +1,51 @@
+"""Every topic of a robot. One topic, one line in the table."""
+
+from typing import NamedTuple
+
+from zteleop.messages import (
+    Beat,
+    DriveStatus,
+    Int16MultiArray,
+    Log,
+    Message,
+    Odometry,
+    Pwm,
+    Twist,
+    TwistStamped,
+    Vehicle,
+)
+
+
+class Topic(NamedTuple):
+    """A name, what may be said under it, and how it travels."""
+
+    name: str
+    types: tuple[type[Message], ...]
+    aliases: tuple[str, ...] = ()
+    command: bool = False
+    """one leaf per source, and every message carries its proof"""
+    urgent: bool = False
+    """overtakes whatever waits"""
+    depth: int = 10
+    """how many are kept for a slow reader; the newest win"""
+
+
+TOPICS = {
+    topic.name: topic
+    for topic in (
+        Topic("cmd_vel", (TwistStamped, Twist), ("cmd_vel_stamped",), command=True, urgent=True),
+        Topic("pwm", (Pwm, Int16MultiArray), ("controls",), command=True, urgent=True),
+        Topic("beat", (Beat,), urgent=True, depth=1),
+        Topic("drive_status", (DriveStatus,), urgent=True),
+        Topic("vehicle", (Vehicle,), depth=1),
+        Topic("odom", (Odometry,)),
+        Topic("log", (Log,), depth=100),
+    )
+}
+
+ALIASES = {alias: topic.name for topic in TOPICS.values() for alias in topic.aliases}
+
+
+def topic_of(path: str) -> Topic:
+    """Return the table's topic that a path such as `cmd_vel/keyboard` belongs to, else a plain one."""
+    return TOPICS.get(path) or TOPICS.get(path.partition("/")[0]) or Topic(path, ())
