@@ -11,14 +11,23 @@ from msgspec import Struct
 from zteleop.bus import clock
 
 Action = Callable[[], object]
+FAR = float("inf")
+LONGEST_WAIT = 60.0
 
 
 class Timer(Struct):
-    """Fires on an absolute schedule; what was missed is not made up for."""
+    """Fires on an absolute schedule, or once where there is no period; what was missed is not made up for."""
 
-    period: float
+    period: float | None
     action: Action
     due: float
+
+    def reschedule(self, now: float) -> None:
+        """Take the next time of the schedule that lies ahead."""
+        if self.period is None:
+            self.due = FAR
+        else:
+            self.due += self.period * (1 + (now - self.due) // self.period)
 
 
 class Loop:
@@ -55,6 +64,12 @@ class Loop:
         self._timers.append(timer)
         return timer
 
+    def alarm(self, action: Action) -> Timer:
+        """Return a timer that runs an action once, whenever its `due` is set."""
+        timer = Timer(None, action, FAR)
+        self._timers.append(timer)
+        return timer
+
     def watch(self, file: int, action: Action) -> None:
         """Run an action whenever a file can be read."""
         self._files[file] = action
@@ -69,9 +84,9 @@ class Loop:
 
     def run_once(self, until: float | None = None) -> None:
         """Wait for the next thing to do, and do what is due."""
-        dues = [timer.due for timer in self._timers]
-        due = min([*dues, until] if until is not None else dues, default=None)
-        timeout = None if due is None else max(0.0, due - clock.now())
+        due = min((timer.due for timer in self._timers), default=FAR)
+        due = min(due, until or FAR)
+        timeout = max(0.0, min(due - clock.now(), LONGEST_WAIT))
         readable = select.select([self._ear.fileno(), *self._files], [], [], 0 if self._ready else timeout)[0]
         if self._ear.fileno() in readable:
             self._answer()
@@ -84,9 +99,9 @@ class Loop:
 
     def _run_timers(self) -> None:
         for timer in self._timers:
-            late = clock.now() - timer.due
-            if late >= 0:
-                timer.due += timer.period * (1 + late // timer.period)
+            now = clock.now()
+            if timer.due <= now:
+                timer.reschedule(now)
                 self._run(timer.action)
 
     def _run(self, action: Action) -> None:

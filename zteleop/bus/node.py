@@ -12,7 +12,7 @@ import zenoh
 from zteleop.bus import clock, codec, presence
 from zteleop.bus.heard import Heard
 from zteleop.bus.log import NodeLog
-from zteleop.bus.loop import Loop
+from zteleop.bus.loop import Loop, Timer
 from zteleop.bus.names import Name, chunk, resolve, robot_name
 from zteleop.bus.publisher import Publisher
 from zteleop.bus.session import BusSettings, open_session
@@ -134,6 +134,10 @@ class Node:
             return function
 
         return decorate
+
+    def alarm(self, action: Callable[[], object]) -> Timer:
+        """Return a timer that runs an action in `spin` once, whenever its `due` is set."""
+        return self._loop.alarm(action)
 
     def watch(self, file: int, action: Callable[[], object]) -> None:
         """Run an action in `spin` whenever a file descriptor can be read."""

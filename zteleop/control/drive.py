@@ -1,9 +1,11 @@
 """The straight line from commands to pulses: gate -> mux -> limiter -> mixer -> servo."""
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 from msgspec import Struct, field
 
+from zteleop.control.calibration import Calibration
 from zteleop.control.gate import Deadlines, Gate, Refusal
 from zteleop.control.limiter import Limits, TwistLimiter, WheelLimiter
 from zteleop.control.mixer import Ackermann, Mixer, Wheels
@@ -50,8 +52,10 @@ class DriveSettings(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Step(NamedTuple):
-    """What one step decided."""
+    """What one step decided, and why."""
 
+    state: State
+    why: str
     claim: Claim | None
     wheels: Wheels
     pulse_us: dict[int, float]
@@ -69,8 +73,7 @@ class Drive:
         self.last_refusal: tuple[str, Refusal, float] | None = None
         self._limiter = TwistLimiter(settings.limits, settings.mixer)
         self._wheel_limiter = WheelLimiter(settings.limits, settings.mixer, settings.servos)
-        self._tick_us = tick_us
-        self._neutral_ticks = {name: round(s.neutral_us / tick_us) for name, s in settings.servos.items()}
+        self.calibration = Calibration(settings.servos, tick_us)
         self._foreign: dict[str, Prover] = {}
         self._stepped = now
 
@@ -86,36 +89,40 @@ class Drive:
 
     def receive(self, source: str, command: Twist | Pwm, proof: Proof | None, now: float) -> Refusal | None:
         """Judge a command that arrived; return why it does not count."""
+        if isinstance(command, Pwm) and not isinstance(self.settings.mixer, Ackermann):
+            return self._refuse(source, Refusal.NO_SUCH_CHANNEL, now)
         moving = self._moves(command)
         if proof is None and self._sources[source].trust == "arrival":
             proof = self._vouch(source, moving, now)
         refusal = self._judge(source, command, proof, moving, now)
         if refusal:
-            self.refused += 1
-            self.last_refusal = (source, refusal, now)
-        return refusal
+            return self._refuse(source, refusal, now)
+        if isinstance(command, Pwm):
+            self.clamped += self.calibration.exceeds(command)
+        return None
 
     def step(self, now: float) -> Step:
         """Decide the pulses of now."""
         self._stepped = now
         claim = self.mux.select(now)
         wheels = self._wheel_limiter.limit(self._obey(claim, now), now)
-        servos = self.settings.servos
-        if wheels is None:
-            return Step(None, dict.fromkeys(servos, 0.0), {s.channel: s.neutral_us for s in servos.values()})
-        return Step(claim, wheels, {s.channel: s.pulse_us(wheels[name]) for name, s in servos.items()})
+        if claim is None or wheels is None:
+            return Step(*self._explain_rest(now), None, self.calibration.rest, self.calibration.neutral_us)
+        pulse_us = self.calibration.pulse_us(wheels)
+        return Step("driving", f"{claim.source} drives", claim, wheels, pulse_us)
 
-    def explain(self, now: float) -> tuple[State, str]:
-        """Say in which state the robot is, and why, in one sentence."""
-        claim = self.mux.select(now)
-        if claim:
-            return "driving", f"{claim.source} drives"
-        state, why = self._rest(now)
+    def _refuse(self, source: str, refusal: Refusal, now: float) -> Refusal:
+        self.refused += 1
+        self.last_refusal = (source, refusal, now)
+        return refusal
+
+    def _explain_rest(self, now: float) -> tuple[State, str]:
+        state, why = self._find_rest(now)
         if self.last_refusal and now - self.last_refusal[2] < 1.0:
             why += f"; {self.last_refusal[0]} is refused: {self.last_refusal[1]}"
         return state, why
 
-    def _rest(self, now: float) -> tuple[State, str]:
+    def _find_rest(self, now: float) -> tuple[State, str]:
         newest = max(self.mux.claims, key=lambda claim: claim.at, default=None)
         if newest is None:
             return "idle", "nobody drives"
@@ -132,8 +139,6 @@ class Drive:
         if not moving:
             self.mux.release(proof.sender)
             return None
-        if isinstance(command, Pwm) and not isinstance(self.settings.mixer, Ackermann):
-            return Refusal.NO_SUCH_CHANNEL
         claim = Claim(source, proof.sender, command, proof.acted, now, proof.seq)
         return None if self.mux.offer(claim) else Refusal.HELD
 
@@ -146,11 +151,7 @@ class Drive:
 
     def _moves(self, command: Twist | Pwm) -> bool:
         if isinstance(command, Pwm):
-            neutral = self._neutral_ticks
-            return (command.steering_ticks, command.throttle_ticks) != (
-                neutral.get("steering"),
-                neutral.get("throttle"),
-            )
+            return not self.calibration.neutral(command)
         return command.linear.x != 0 or command.angular.z != 0
 
     def _obey(self, claim: Claim | None, now: float) -> Wheels | None:
@@ -162,15 +163,10 @@ class Drive:
             twist = self._limiter.limit(claim.command, now, cap)
             return self.settings.mixer.mix(twist) if twist else None
         self._limiter.limit(None, now)
-        wheels = self._wheel_limiter.cap(self._wheels(claim.command), cap)
+        wheels = self._wheel_limiter.cap(self.calibration.wheels(claim.command), cap)
         self._limiter.follow(self.settings.mixer.unmix(wheels))
         return wheels
 
-    def _wheels(self, pwm: Pwm) -> Wheels:
-        ticks = {"steering": pwm.steering_ticks, "throttle": pwm.throttle_ticks}
-        wheels = {name: self.settings.servos[name].fraction(n * self._tick_us) for name, n in ticks.items()}
-        return {name: max(-1.0, min(1.0, fraction)) for name, fraction in wheels.items()}
 
-
-def _names(names: object) -> str:
-    return ", ".join(sorted(names))  # type: ignore[call-overload]
+def _names(names: Iterable[str]) -> str:
+    return ", ".join(sorted(names))

@@ -98,13 +98,10 @@ class WheelLimiter:
         return self._last if self._obeys(now) else self._coast(self._last)
 
     def cap(self, wheels: Wheels, max_speed: float | None) -> Wheels:
-        """Bound the driven wheels of a command that names pulses, not speeds, in m/s."""
+        """Bound a command that names pulses: to full range, and the driven wheels to a speed in m/s."""
         speed = min(bound for bound in (max_speed, self._limits.speed, self._mixer.max_speed) if bound)
-        top = speed / self._mixer.max_speed
-        return {
-            name: max(-top, min(top, fraction)) if name in self._mixer.driven else fraction
-            for name, fraction in wheels.items()
-        }
+        ends = {name: speed / self._mixer.max_speed if name in self._mixer.driven else 1.0 for name in wheels}
+        return {name: max(-ends[name], min(ends[name], fraction)) for name, fraction in wheels.items()}
 
     def _slew(self, name: str, fraction: float, dt: float) -> float:
         rate = self._rates[name]

@@ -1,0 +1,91 @@
+import pytest
+
+from zteleop.control.gate import SENDERS, Deadlines, Gate, Refusal
+from zteleop.control.proof import Proof
+
+EPOCH = 5
+
+
+@pytest.fixture
+def gate() -> Gate:
+    return Gate(Deadlines(), EPOCH, now=100.0)
+
+
+def proof(now: float, seq: int = 1, **changes: float) -> Proof:
+    fields = {"sender": 1, "seq": seq, "epoch": EPOCH, "beat": now, "acted": now, "began": now}
+    return Proof(**(fields | changes))  # type: ignore[arg-type]
+
+
+def test_a_fresh_act_from_neutral_passes(gate: Gate) -> None:
+    assert gate.judge(proof(101.0), True, 101.01) is None
+
+
+def test_no_proof_no_motion(gate: Gate) -> None:
+    assert gate.judge(None, True, 101.0) is Refusal.UNPROVEN
+
+
+def test_another_epoch_is_refused(gate: Gate) -> None:
+    assert gate.judge(proof(101.0, epoch=4), True, 101.0) is Refusal.EARLIER_START
+
+
+@pytest.mark.parametrize(("age", "verdict"), [(0.3, None), (0.31, Refusal.STALE), (-0.01, Refusal.STALE)])
+def test_age_is_bounded_both_ways(gate: Gate, age: float, verdict: Refusal | None) -> None:
+    made = 101.0
+    assert gate.judge(proof(made), False, made + age) is verdict
+
+
+def test_neither_seq_nor_beat_goes_back(gate: Gate) -> None:
+    assert gate.judge(proof(101.0, seq=5), True, 101.0) is None
+    assert gate.judge(proof(101.1, seq=5), True, 101.1) is Refusal.REPLAYED
+    assert gate.judge(proof(100.9, seq=6), True, 101.1) is Refusal.REPLAYED
+
+
+def test_an_idle_operator_is_refused_and_the_next_act_drives_again(gate: Gate) -> None:
+    for tick in range(300):
+        now = 101.0 + tick / 20
+        verdict = gate.judge(proof(now, seq=tick, acted=101.0, began=101.0), True, now)
+        assert verdict is (None if now - 101.0 <= 5.0 else Refusal.OPERATOR_IDLE)
+    assert gate.judge(proof(117.0, seq=900, began=101.0), True, 117.0) is None
+
+
+def test_what_began_before_the_start_is_refused(gate: Gate) -> None:
+    assert gate.judge(proof(101.0, began=100.0), True, 101.0) is Refusal.NOT_FROM_NEUTRAL
+    assert gate.judge(proof(101.1, seq=2, began=99.0), False, 101.1) is None
+
+
+def test_a_short_loss_resumes_and_a_long_one_needs_a_new_act_from_neutral(gate: Gate) -> None:
+    assert gate.judge(proof(101.0, seq=1), True, 101.0) is None
+    assert gate.judge(proof(102.9, seq=2, began=101.0), True, 102.9) is None
+    assert gate.judge(proof(105.0, seq=3, began=101.0), True, 105.0) is Refusal.NOT_FROM_NEUTRAL
+    assert gate.judge(proof(105.1, seq=4, began=101.0), True, 105.1) is Refusal.NOT_FROM_NEUTRAL
+    assert gate.judge(proof(105.2, seq=5, began=105.2), True, 105.2) is None
+
+
+def test_letting_go_before_a_silence_is_no_loss(gate: Gate) -> None:
+    assert gate.judge(proof(101.0, seq=1), False, 101.0) is None
+    assert gate.judge(proof(109.0, seq=2), True, 109.0) is None
+
+
+def test_a_restart_refuses_all_that_was_before(gate: Gate) -> None:
+    assert gate.judge(proof(101.0), True, 101.0) is None
+    gate.restart(6, 102.0)
+    assert gate.judge(proof(102.1, seq=2), True, 102.1) is Refusal.EARLIER_START
+    assert gate.judge(proof(102.1, seq=3, epoch=6, began=101.0), True, 102.1) is Refusal.NOT_FROM_NEUTRAL
+    assert gate.judge(proof(102.2, seq=4, epoch=6), True, 102.2) is None
+
+
+def test_nonsense_times_are_refused(gate: Gate) -> None:
+    nan = float("nan")
+    assert gate.judge(proof(101.0, beat=nan), True, 101.0) is Refusal.STALE
+    assert gate.judge(proof(101.0, acted=nan), True, 101.0) is Refusal.OPERATOR_IDLE
+    assert gate.judge(proof(101.0, seq=2, began=nan), True, 101.0) is Refusal.NOT_FROM_NEUTRAL
+    assert gate.judge(proof(101.0, seq=3, began=200.0), True, 101.0) is Refusal.NOT_FROM_NEUTRAL
+
+
+def test_memory_is_bounded_and_the_forgotten_must_let_go(gate: Gate) -> None:
+    assert gate.judge(proof(101.0, seq=9), True, 101.0) is None
+    for sender in range(2, SENDERS + 3):
+        now = 101.0 + sender / 1000
+        assert gate.judge(proof(now, sender=sender), True, now) is None
+    assert len(gate._senders) == SENDERS
+    assert gate.judge(proof(101.2, seq=10, began=101.0), True, 101.2) is Refusal.NOT_FROM_NEUTRAL

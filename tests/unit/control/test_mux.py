@@ -1,0 +1,59 @@
+from zteleop.control.mux import Claim, Mux, Source
+from zteleop.messages import Twist
+
+SOURCES = {"web": Source(priority=100), "keyboard": Source(priority=90), "program": Source(50, silence=0.5)}
+
+
+def claim(source: str, at: float, sender: int = 1, acted: float | None = None) -> Claim:
+    return Claim(source, sender, Twist.planar(0.5), at if acted is None else acted, at, 1)
+
+
+def mux() -> Mux:
+    return Mux(SOURCES, operator_silence=5.0)
+
+
+def test_nobody_drives_at_first() -> None:
+    assert mux().select(0.0) is None
+
+
+def test_the_highest_priority_drives() -> None:
+    it = mux()
+    for source in ("program", "web", "keyboard"):
+        assert it.offer(claim(source, 1.0))
+    assert it.select(1.0).source == "web"
+    it.offer(claim("program", 1.35))
+    assert it.select(1.35).source == "program"
+
+
+def test_each_source_falls_silent_by_its_own_deadline() -> None:
+    it = mux()
+    it.offer(claim("keyboard", 1.0))
+    it.offer(claim("program", 1.0))
+    assert it.select(1.29).source == "keyboard"
+    assert it.select(1.31).source == "program"
+    assert it.select(1.51) is None
+
+
+def test_an_idle_operator_yields() -> None:
+    it = mux()
+    it.offer(claim("keyboard", 10.0, acted=5.0))
+    assert it.select(10.0).source == "keyboard"
+    it.offer(claim("keyboard", 10.1, acted=5.0))
+    assert it.select(10.1) is None
+
+
+def test_within_a_source_the_holder_keeps_it_until_silent_or_let_go() -> None:
+    it = mux()
+    it.offer(claim("keyboard", 1.0, sender=1))
+    assert not it.offer(claim("keyboard", 1.1, sender=2))
+    assert it.offer(claim("keyboard", 1.31, sender=2))
+    it.release(2)
+    assert it.select(1.31) is None
+    assert it.offer(claim("keyboard", 1.32, sender=1))
+
+
+def test_letting_go_frees_only_ones_own() -> None:
+    it = mux()
+    it.offer(claim("keyboard", 1.0, sender=1))
+    it.release(2)
+    assert it.select(1.0).sender == 1

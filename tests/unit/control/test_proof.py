@@ -1,0 +1,53 @@
+from zteleop.control.proof import NEVER, Prover
+from zteleop.messages import Beat
+
+
+def beat(time: float, epoch: int = 1) -> Beat:
+    return Beat(epoch, time)
+
+
+def test_a_proof_echoes_the_newest_beat_and_counts() -> None:
+    prover = Prover(7)
+    prover.act(beat(10.0))
+    first = prover.prove(beat(10.0), True, 0.0)
+    second = prover.prove(beat(10.1), True, 0.1)
+    assert first == (7, 1, 1, 10.0, 10.0, 10.0)
+    assert second == (7, 2, 1, 10.1, 10.0, 10.0)
+
+
+def test_a_claim_begins_when_it_leaves_neutral() -> None:
+    prover = Prover(7)
+    prover.act(beat(10.0))
+    prover.prove(beat(10.0), False, 0.0)
+    prover.act(beat(11.0))
+    assert prover.prove(beat(11.0), True, 1.0).began == 11.0
+
+
+def test_a_claim_begins_anew_after_silence() -> None:
+    prover = Prover(7, silence=0.5)
+    for time in (10.0, 10.4, 11.0):
+        prover.act(beat(time))
+        proof = prover.prove(beat(time), True, time)
+    assert proof.began == 11.0
+
+
+def test_a_claim_that_was_moving_before_the_robot_started_has_no_beginning() -> None:
+    prover = Prover(7)
+    prover.act(None)
+    assert prover.prove(None, True, 0.0) is None
+    prover.act(beat(10.0))
+    assert prover.prove(beat(10.0), True, 0.1).began == NEVER
+    prover.act(beat(10.1))
+    prover.prove(beat(10.1), False, 0.2)
+    prover.act(beat(10.2))
+    assert prover.prove(beat(10.2), True, 0.3).began == 10.2
+
+
+def test_a_new_epoch_forgets_act_and_beginning() -> None:
+    prover = Prover(7)
+    prover.act(beat(10.0, epoch=1))
+    prover.prove(beat(10.0, epoch=1), True, 0.0)
+    proof = prover.prove(beat(3.0, epoch=2), True, 0.1)
+    assert (proof.epoch, proof.acted, proof.began) == (2, NEVER, NEVER)
+    prover.act(beat(3.1, epoch=2))
+    assert prover.prove(beat(3.1, epoch=2), True, 0.2).began == NEVER

@@ -1,0 +1,38 @@
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from zteleop.control.drive import DONKEYCAR
+from zteleop.control.servo import Servo
+
+SERVOS = [
+    Servo(channel=0),
+    Servo(channel=0, min_us=2000, max_us=1000),
+    Servo(channel=0, min_us=1100, neutral_us=1400, max_us=2000),
+]
+
+
+@pytest.mark.parametrize("servo", SERVOS)
+@given(fraction=st.floats(-1, 1))
+def test_a_fraction_survives_the_way_to_a_pulse_and_back(servo: Servo, fraction: float) -> None:
+    assert servo.fraction(servo.pulse_us(fraction)) == pytest.approx(fraction, abs=1e-9)
+
+
+@pytest.mark.parametrize("servo", SERVOS)
+@given(fraction=st.floats(allow_nan=False, allow_infinity=False))
+def test_no_fraction_leaves_the_ends(servo: Servo, fraction: float) -> None:
+    ends = sorted((servo.min_us, servo.max_us))
+    assert ends[0] - 1e-9 <= servo.pulse_us(fraction) <= ends[1] + 1e-9
+
+
+@pytest.mark.parametrize("neutral", [900.0, 1000.0, 2000.0, 2100.0])
+def test_neutral_outside_the_ends_is_refused(neutral: float) -> None:
+    with pytest.raises(ValueError, match="neutral_us must lie between"):
+        Servo(channel=0, neutral_us=neutral)
+
+
+def test_donkeycars_calibration_in_ticks_at_60_hz() -> None:
+    steering = DONKEYCAR["steering"].describe("steering", 4.08)
+    throttle = DONKEYCAR["throttle"].describe("throttle", 4.08)
+    assert (steering.min_ticks, steering.neutral_ticks, steering.max_ticks) == (290, 375, 460)
+    assert (throttle.min_ticks, throttle.neutral_ticks, throttle.max_ticks) == (220, 370, 500)

@@ -1,0 +1,43 @@
+"""The house as design and pyproject draw it."""
+
+import ast
+from pathlib import Path
+
+import pytest
+from importlinter.cli import EXIT_STATUS_SUCCESS, lint_imports
+
+import zteleop
+
+ROOT = Path(__file__).parents[2]
+SOURCES = sorted((ROOT / "zteleop").rglob("*.py"))
+
+
+def test_imports_keep_every_contract(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(ROOT)
+    assert lint_imports(no_cache=True) == EXIT_STATUS_SUCCESS
+
+
+@pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(ROOT)))
+def test_no_file_is_long_or_named_after_nothing(path: Path) -> None:
+    assert len(path.read_text().splitlines()) <= 400
+    assert path.stem not in {"utils", "util", "helpers", "common", "manager", "base", "misc"}
+
+
+def test_functions_are_short() -> None:
+    lengths = sorted(
+        node.end_lineno - node.lineno + 1
+        for path in SOURCES
+        for node in ast.walk(ast.parse(path.read_text()))
+        if isinstance(node, ast.FunctionDef) and node.end_lineno
+    )
+    assert lengths[len(lengths) // 2] <= 8
+
+
+def test_every_public_name_can_be_imported() -> None:
+    for name in zteleop.__all__:
+        assert getattr(zteleop, name).__name__ == name
+
+
+def test_an_unknown_name_says_so() -> None:
+    with pytest.raises(AttributeError, match="zteleop has no 'Nod'"):
+        zteleop.__getattr__("Nod")

@@ -1,0 +1,50 @@
+"""What you type. One file per verb, one line below."""
+
+import sys
+
+VERBS = {
+    "demo": "drive a simulated car, all in one",
+    "keyboard": "drive with the keys of this terminal",
+    "actuator": "obey commands: turn them into pulses for servos and ESCs",
+    "sim": "move a simulated vehicle by the pulses of a simulated chip",
+    "list": "list the topics of every robot on the bus",
+    "echo": "print what a topic says",
+    "pub": "say something on a topic",
+    "check": "check a config file",
+    "schema": "write the JSON Schema of every message and of config.toml",
+}
+
+USAGE = """usage: zteleop VERB ...
+
+Drive a small robot from any device, safely.
+
+{verbs}
+
+zteleop VERB --help tells more. Start with: zteleop demo
+"""
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Run one verb; return 0 done, 1 error, 2 usage, 130 Ctrl-C, 143 SIGTERM."""
+    arguments = sys.argv[1:] if argv is None else argv
+    if not arguments or arguments[0] in ("-h", "--help"):
+        print(USAGE.format(verbs="\n".join(f"  {verb:10} {text}" for verb, text in VERBS.items())), end="")
+        return 0
+    if arguments[0] in ("-V", "--version"):
+        from importlib.metadata import version
+
+        print(f"zteleop {version('zteleop')}")
+        return 0
+    if arguments[0] not in VERBS:
+        print(f"zteleop: {_unknown(arguments[0])}", file=sys.stderr)
+        return 2
+    from zteleop.cli.run import run_verb
+
+    return run_verb(arguments[0], VERBS[arguments[0]], arguments[1:])
+
+
+def _unknown(verb: str) -> str:
+    from difflib import get_close_matches
+
+    near = get_close_matches(verb, VERBS, 1)
+    return f"no verb {verb!r}; " + (f"did you mean {near[0]}?" if near else f"known: {', '.join(VERBS)}")

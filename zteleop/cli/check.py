@@ -1,0 +1,35 @@
+import argparse
+from pathlib import Path
+
+from zteleop import config
+from zteleop.config import Config
+from zteleop.control.report import describe
+from zteleop.drivers import tick_us_of
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("file", nargs="?", type=Path, help="default: what every verb would read")
+    parser.add_argument("--config", metavar="FILE", type=Path, help=argparse.SUPPRESS)
+
+
+def run(arguments: argparse.Namespace) -> None:
+    path = arguments.file or arguments.config
+    settings = config.load(path)
+    found = path or next((place for place in config.places() if place.is_file()), None)
+    print(f"{found or 'no config file: the built-in simulated car'}: good\n{_summary(settings)}")
+
+
+def _summary(settings: Config) -> str:
+    """Say in a few lines what a robot with these settings is."""
+    vehicle = describe(settings.drive, tick_us_of(settings.driver, settings.drivers.get(settings.driver, {})))
+    lines = [
+        f"robot    {settings.robot or 'a name of its own'}",
+        f"driver   {settings.driver}",
+        f"vehicle  {vehicle.kind}, at most {vehicle.max_speed:g} m/s and {vehicle.max_turn:.2g} rad/s",
+    ]
+    for c in vehicle.channels:
+        widths = f"{c.min_us:.0f} {c.neutral_us:.0f} {c.max_us:.0f} us"
+        lines.append(f"{c.name:8} channel {c.channel}: {widths} = {c.min_ticks} {c.neutral_ticks} {c.max_ticks} ticks")
+    sources = sorted(settings.drive.known_sources.items(), key=lambda item: -item[1].priority)
+    lines.append("sources  " + ", ".join(f"{name} {source.priority}" for name, source in sources))
+    return "\n".join(lines)

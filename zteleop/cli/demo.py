@@ -1,0 +1,130 @@
+import argparse
+import secrets
+import socket
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import IO
+
+from zteleop.bus import clock
+from zteleop.bus.node import Node
+from zteleop.bus.session import PORT, BusSettings
+from zteleop.cli.keyboard import drive_with_keys, find_vehicle
+from zteleop.config import Config
+from zteleop.errors import BusError
+from zteleop.inputs.script import Script
+from zteleop.nodes.teleop import Teleop, View
+
+START = 10.0
+FAREWELL = 3.0
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--drive", choices=["step", "hold"], help="how the keys drive (default: step)")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Start actuator and simulator as processes of their own; drive them from here."""
+    robot = f"demo-{secrets.token_hex(2)}"
+    endpoint = f"tcp/127.0.0.1:{_free_port()}"
+    with ExitStack() as stack:
+        log = stack.enter_context(tempfile.NamedTemporaryFile("w+", prefix="zteleop-demo-", suffix=".log"))
+        where = ["--robot", robot, "--no-multicast-scouting"]
+        children = [
+            stack.enter_context(child(["actuator", *where, "--listen", endpoint], log)),
+            stack.enter_context(
+                child(["sim", *where, "--connect", endpoint, "--listen", "tcp/127.0.0.1:0"], log)
+            ),
+        ]
+        bus = BusSettings(connect=[endpoint], listen=["tcp/127.0.0.1:0"], multicast=False)
+        node = stack.enter_context(Node("keyboard", robot, bus))
+        await_robot(node, children, Path(log.name))
+        if sys.stdin.isatty() and sys.stdout.isatty():
+            drive_with_keys(node, Config(), arguments.drive)
+            return 0
+        return drive_figure(node)
+
+
+def drive_figure(node: Node) -> int:
+    """Drive a scripted figure and print a line a second; return 0 when the car moved."""
+    print("no terminal: driving a figure of eight for 10 s", flush=True)
+    node.log.show = lambda line: print(line, file=sys.stderr)
+    with Script() as script:
+        teller = Teller()
+        Teleop(node, script, "program", find_vehicle(node, Config()), teller).run()
+    print(f"drove {teller.distance:.1f} m and stopped")
+    return 0 if teller.distance > 0 else 1
+
+
+class Teller:
+    """Prints a status line a second, and measures the way."""
+
+    def __init__(self) -> None:
+        self.distance = 0.0
+        self._place: tuple[float, float] | None = None
+        self._began = self._due = clock.now()
+
+    def __call__(self, view: View) -> None:
+        if view.odom:
+            place = view.odom.pose.pose.position
+            x, y = self._place or (place.x, place.y)
+            self.distance += ((place.x - x) ** 2 + (place.y - y) ** 2) ** 0.5
+            self._place = (place.x, place.y)
+        if view.now >= self._due:
+            self._due += 1.0
+            print(f"{view.now - self._began:4.0f} s  {self._line(view)}", flush=True)
+
+    def _line(self, view: View) -> str:
+        if view.status is None or view.odom is None:
+            return "no robot heard"
+        pulses = "  ".join(f"{pulse.name} {pulse.duty_ticks}" for pulse in view.status.pulses)
+        x, y = self._place or (0.0, 0.0)
+        speed = view.odom.twist.twist.linear.x
+        return f"{view.status.state:13}  {speed:5.2f} m/s  x {x:6.2f} m  y {y:6.2f} m  {pulses}"
+
+
+@contextmanager
+def child(arguments: list[str], log: IO[str]) -> Iterator["subprocess.Popen[bytes]"]:
+    """Run a verb as a process that ends with this one, however this one ends."""
+    command = [sys.executable, "-m", "zteleop", *arguments, "--with-parent"]
+    process = subprocess.Popen(
+        command, stdin=subprocess.PIPE, stdout=log, stderr=subprocess.STDOUT, start_new_session=True
+    )
+    try:
+        yield process
+    finally:
+        assert process.stdin
+        process.stdin.close()
+        try:
+            process.wait(FAREWELL)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+
+
+def await_robot(node: Node, children: "list[subprocess.Popen[bytes]]", log: Path) -> None:
+    """Wait until the robot beats; raises BusError with a child's last words when it does not."""
+    give_up = clock.now() + START
+    while clock.now() < give_up and all(process.poll() is None for process in children):
+        node.heard().listen()
+        if node.heard().beat and node.heard().vehicle:
+            return
+        node.spin(0.01)
+    words = log.read_text().strip().splitlines()
+    raise BusError(f"the simulated robot did not start: {words[-1] if words else 'it said nothing'}")
+
+
+def _free_port() -> int:
+    """Return the robots' usual port, where every verb on this machine looks, else any free one."""
+    for port in (PORT, 0):
+        with socket.socket() as probe:
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            try:
+                probe.bind(("127.0.0.1", port))
+            except OSError:
+                continue
+            return int(probe.getsockname()[1])
+    raise BusError("no free port on 127.0.0.1")

@@ -1,0 +1,74 @@
+import argparse
+import sys
+from collections.abc import Iterator
+from typing import Any
+
+import msgspec
+import zenoh
+
+from zteleop.bus import codec
+from zteleop.bus.names import resolve
+from zteleop.bus.session import open_session
+from zteleop.bus.topics import topic_of
+from zteleop.cli import options
+from zteleop.errors import BusError, ConfigError, MessageError
+
+DEPTH = 100
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    options.add(parser)
+    parser.add_argument("topic", help="such as archangel/odom, or odom with --robot")
+    parser.add_argument("--once", action="store_true", help="print one message and end")
+    parser.add_argument("--json", action="store_true", help="one message a line, as JSON")
+    parser.add_argument("--timeout", metavar="SECONDS", type=float, help="give up after so long a silence")
+
+
+def run(arguments: argparse.Namespace) -> None:
+    settings = options.load(arguments)
+    with open_session(settings.bus) as session:
+        try:
+            name = resolve(arguments.topic, settings.robot)
+        except ConfigError:
+            name = resolve(arguments.topic, options.find_robot(session, settings))
+        command = topic_of(name.path).command and "/" not in name.path
+        key = f"{name.key}/**" if command else name.key
+        channel: Any = zenoh.handlers.RingChannel(DEPTH)
+        subscriber = session.declare_subscriber(key, channel)
+        for sample in _samples(subscriber, arguments.timeout, name.key):
+            if _print(sample, arguments.json) and arguments.once:
+                return
+
+
+def _samples(subscriber: Any, timeout: float | None, key: str) -> Iterator[zenoh.Sample]:
+    if timeout is None:
+        yield from subscriber
+    import time
+
+    while timeout is not None:
+        give_up = time.monotonic() + timeout
+        while (sample := subscriber.try_recv()) is None:
+            if time.monotonic() > give_up:
+                raise BusError(f"nothing was said on {key} for {timeout:g} s; zteleop list shows the topics")
+            time.sleep(0.002)
+        yield sample
+
+
+def _print(sample: zenoh.Sample, as_json: bool) -> bool:
+    """Print a message; False when it cannot be read, which is said on stderr."""
+    if sample.kind != zenoh.SampleKind.PUT:
+        return False
+    try:
+        values = codec.decode_any(bytes(sample.payload), str(sample.encoding))
+    except MessageError as error:
+        print(f"{sample.key_expr}: {ascii(str(error))[1:-1]}", file=sys.stderr)
+        return False
+    print(msgspec.json.encode(values).decode() if as_json else _yaml(values), flush=True)
+    return True
+
+
+def _yaml(values: Any) -> str:
+    import yaml
+
+    dumper: Any = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
+    return yaml.dump(values, Dumper=dumper, sort_keys=False, allow_unicode=True) + "---"

@@ -1,0 +1,102 @@
+import argparse
+from collections import deque
+from collections.abc import Callable
+
+
+from zteleop.bus import clock
+from zteleop.bus.node import Node
+from zteleop.cli import options
+from zteleop.config import Config
+from zteleop.control.report import describe
+from zteleop.drivers import tick_us
+from zteleop.inputs.keyboard import Keyboard
+from zteleop.inputs.screen import Dashboard, render
+from zteleop.messages import Pwm, Twist, Vehicle
+from zteleop.nodes.teleop import Teleop, View
+
+TRAIL = 400
+TRAIL_STEP = 0.05
+PATIENCE = 0.6
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    options.add(parser)
+    parser.add_argument(
+        "--drive",
+        choices=["step", "hold"],
+        help="step: every press moves a lever, and there it stays; hold: drive while a key is held "
+        "(default: step for cars, else hold)",
+    )
+
+
+def run(arguments: argparse.Namespace) -> None:
+    settings = options.load(arguments)
+    session = options.open_bus(settings.bus)
+    try:
+        node = Node("keyboard", options.find_robot(session, settings), session=session)
+    except BaseException:
+        session.close()
+        raise
+    with node:
+        drive_with_keys(node, settings, arguments.drive)
+
+
+def drive_with_keys(node: Node, settings: Config, drive: str | None = None) -> None:
+    """Show the keyboard screen and drive until the operator has enough."""
+    vehicle = find_vehicle(node, settings)
+    drive = drive or ("step" if vehicle.kind == "ackermann" else "hold")
+    node.log.show = lambda line: None  # nothing prints over the screen: it shows the log itself
+    keyboard = Keyboard(
+        "step" if drive == "step" else "hold", speeds=settings.speeds, steps=settings.steps
+    )
+    with keyboard:
+        Teleop(node, keyboard, "keyboard", vehicle, painter(keyboard, node.robot or "")).run()
+
+
+def find_vehicle(node: Node, settings: Config) -> Vehicle:
+    """Return what the robot says of itself; when it is not there yet, what the settings say."""
+    give_up = clock.now() + PATIENCE
+    while clock.now() < give_up:
+        if vehicle := node.heard().vehicle:
+            return vehicle
+        node.spin(0.01)
+    return describe(settings.drive, tick_us(settings.driver, settings.settings_of(settings.driver, "any")))
+
+
+def painter(keyboard: Keyboard, robot: str) -> Callable[[View], None]:
+    """Return what draws the screen, and stops the process when Ctrl-Z asked for it."""
+    trail: deque[tuple[float, float]] = deque(maxlen=TRAIL)
+
+    def paint(view: View) -> None:
+        if keyboard.suspending:
+            keyboard.suspend(clock.now())
+        follow(trail, view)
+        terminal = keyboard.terminal
+        columns, rows = terminal.size()
+        dashboard = Dashboard(
+            robot=robot,
+            drive=keyboard.drive,
+            vehicle=view.vehicle,
+            stick=view.stick,
+            pwm=view.command if isinstance(view.command, Pwm) else None,
+            twist=view.command if isinstance(view.command, Twist) else None,
+            speeds=keyboard.speeds,
+            status=view.status,
+            ours=view.ours,
+            odom=view.odom,
+            trail=trail,
+            idle_left=keyboard.idle_left(view.now),
+            note=view.note,
+        )
+        terminal.draw(render(dashboard, columns, rows, unicode=terminal.unicode, color=terminal.color))
+
+    return paint
+
+
+def follow(trail: deque[tuple[float, float]], view: View) -> None:
+    """Add where the robot is to its trail, when it has moved."""
+    if view.odom is None:
+        return
+    place = view.odom.pose.pose.position
+    if not trail or abs(place.x - trail[-1][0]) + abs(place.y - trail[-1][1]) > TRAIL_STEP:
+        trail.append((place.x, place.y))

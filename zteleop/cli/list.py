@@ -1,0 +1,45 @@
+import argparse
+
+from zteleop.bus import presence
+from zteleop.bus.presence import Endpoint
+from zteleop.bus.topics import topic_of
+from zteleop.cli import options
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    options.add(parser)
+    parser.add_argument("-t", "--show-types", action="store_true", help="with the type of each topic")
+    parser.add_argument("-v", "--verbose", action="store_true", help="with who publishes and who hears it")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    settings = options.load(arguments)
+    with options.open_bus(settings.bus) as session:
+        endpoints = presence.endpoints(session)
+    if settings.robot:
+        endpoints = [endpoint for endpoint in endpoints if endpoint.robot == settings.robot]
+    if not endpoints:
+        where = settings.robot or "a robot"
+        print(f"nobody speaks for {where}; start one with: zteleop demo, or zteleop actuator")
+        return 1
+    for name, members in _by_topic(endpoints).items():
+        print(_line(name, members, arguments.show_types))
+        if arguments.verbose:
+            print("\n".join(f"    {m.kind} {m.node} on {m.process}: {m.topic} [{m.type}]" for m in members))
+    return 0
+
+
+def _by_topic(endpoints: list[Endpoint]) -> dict[str, list[Endpoint]]:
+    """Group by topic; a command topic's sources are one, and stand under each of its names."""
+    found: dict[str, list[Endpoint]] = {}
+    for endpoint in endpoints:
+        topic = topic_of(endpoint.topic)
+        names = (topic.name, *topic.aliases) if topic.types else (endpoint.topic,)
+        for name in names:
+            found.setdefault(f"/{endpoint.robot}/{name}", []).append(endpoint)
+    return dict(sorted(found.items()))
+
+
+def _line(name: str, members: list[Endpoint], show_types: bool) -> str:
+    types = sorted({member.type for member in members})
+    return f"{name} [{', '.join(types)}]" if show_types else name

@@ -1,0 +1,89 @@
+"""Options that every verb on the bus shares, and the robot they lead to."""
+
+import argparse
+import sys
+from pathlib import Path
+
+import msgspec
+import zenoh
+
+from zteleop import config
+from zteleop.bus import presence
+from zteleop.bus.names import robot_name
+from zteleop.bus.node import Node
+from zteleop.bus.session import BusSettings
+from zteleop.config import Config
+from zteleop.errors import ConfigError
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    """Add the options of a verb that joins the bus."""
+    add_config(parser)
+    parser.add_argument("--robot", metavar="NAME", type=_robot, help="the robot meant, such as archangel")
+    parser.add_argument("-m", "--mode", choices=["peer", "client", "router"], help="how to join the bus")
+    parser.add_argument(
+        "-e", "--connect", metavar="ENDPOINT", action="append", help="join by this endpoint: tcp/pi.local:7447"
+    )
+    parser.add_argument(
+        "-l", "--listen", metavar="ENDPOINT", action="append", help="be reachable at: tcp/[::]:7447"
+    )
+    parser.add_argument(
+        "--no-multicast-scouting", action="store_true", help="do not look for others on the network"
+    )
+
+
+def add_config(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--config", metavar="FILE", type=Path, help="settings (default: ./config.toml, then the user's)"
+    )
+
+
+def load(options: argparse.Namespace) -> Config:
+    """Return the settings of the file meant, with what was typed on top."""
+    settings = config.load(options.config)
+    typed = {
+        "mode": options.mode,
+        "connect": options.connect,
+        "listen": options.listen,
+        "multicast": False if options.no_multicast_scouting else None,
+    }
+    bus = msgspec.structs.replace(settings.bus, **{k: v for k, v in typed.items() if v is not None})
+    return msgspec.structs.replace(settings, bus=bus, robot=options.robot or settings.robot)
+
+
+def find_robot(session: zenoh.Session, settings: Config) -> str:
+    """Return the robot meant: the one named, else the only one on the bus, else this machine's own.
+
+    Raises ConfigError when there are several.
+    """
+    if settings.robot:
+        return settings.robot
+    found = presence.robots(session)
+    if len(found) > 1:
+        raise ConfigError(f"{len(found)} robots are on the bus: {', '.join(found)}; say --robot NAME")
+    return found[0] if found else config.own_name()
+
+
+def open_bus(settings: BusSettings) -> zenoh.Session:
+    """Join the bus and wait until somebody is found, or nobody is there."""
+    from zteleop.bus.session import open_session
+
+    return open_session(settings, settle=True)
+
+
+def _robot(text: str) -> str:
+    try:
+        return robot_name(text)
+    except ConfigError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+
+
+def add_parent(parser: argparse.ArgumentParser) -> None:
+    """Add the option of a verb that another verb starts."""
+    parser.add_argument("--with-parent", action="store_true", help=argparse.SUPPRESS)
+
+
+def end_with_parent(options: argparse.Namespace, node: Node) -> None:
+    """End when stdin does: whoever started this process is gone, however it died."""
+    if options.with_parent:
+        node.watch(sys.stdin.fileno(), node.stop)

@@ -1,0 +1,42 @@
+"""Runs one verb: its arguments, its errors in one sentence, its exit code."""
+
+import argparse
+import os
+import signal
+import sys
+from importlib import import_module
+
+from zteleop.errors import ZteleopError
+
+
+def run_verb(verb: str, text: str, arguments: list[str]) -> int:
+    """Run a verb and return its exit code; a traceback only with --debug."""
+    module = import_module(f"zteleop.cli.{verb}")
+    parser = argparse.ArgumentParser(prog=f"zteleop {verb}", description=f"{text[0].upper()}{text[1:]}.")
+    parser.add_argument("--debug", action="store_true", help="show the traceback of an error")
+    module.add_arguments(parser)
+    options = parser.parse_args(arguments)
+    signal.signal(signal.SIGTERM, _end)
+    try:
+        return module.run(options) or 0
+    except KeyboardInterrupt:
+        return 130
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+    except ZteleopError as error:
+        return _fail(verb, str(error), options.debug)
+    except Exception as error:
+        return _fail(verb, f"{type(error).__name__}: {error} (a bug; --debug shows where)", options.debug)
+
+
+def _fail(verb: str, words: str, debug: bool) -> int:
+    if debug:
+        raise  # noqa: PLE0704  (called while the error is handled)
+    print(f"zteleop {verb}: {words}", file=sys.stderr)
+    return 1
+
+
+def _end(number: int, frame: object) -> None:
+    """Let SIGTERM unwind every `with`."""
+    raise SystemExit(128 + number)

@@ -1,0 +1,21 @@
+import argparse
+
+from zteleop import config
+from zteleop.bus.node import Node
+from zteleop.cli import options
+from zteleop.nodes import simulator
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    options.add(parser)
+    parser.add_argument("vehicle", nargs="?", choices=["car"], default="car", help="what to simulate")
+    options.add_parent(parser)
+
+
+def run(arguments: argparse.Namespace) -> None:
+    settings = options.load(arguments)
+    robot = settings.robot or config.own_name()
+    driver = settings.settings_of("simulated", robot)
+    with Node("sim", robot, settings.bus) as node:
+        options.end_with_parent(arguments, node)
+        simulator.run(node, settings.drive, driver["path"])

@@ -1,0 +1,130 @@
+"""config.toml: the contents page of every other module's settings, and where it is found."""
+
+import os
+import secrets
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import msgspec
+from msgspec import Struct, field
+
+from zteleop.bus.names import robot_name
+from zteleop.bus.session import BusSettings
+from zteleop.control.drive import DriveSettings
+from zteleop.control.stick import Speeds
+from zteleop.drivers import DRIVERS, driver_settings
+from zteleop.errors import ConfigError
+from zteleop.inputs.levers import Steps
+
+
+class Config(Struct, frozen=True, forbid_unknown_fields=True):
+    """Everything that can be set; without a file, a simulated car with Donkeycar's calibration."""
+
+    robot: str | None = None
+    """its name on the bus; without one, a name of its own is made and kept"""
+    driver: str = "simulated"
+    bus: BusSettings = BusSettings()
+    drive: DriveSettings = field(default_factory=DriveSettings)
+    speeds: Speeds = Speeds()
+    """of a full stick, for inputs that drive while held"""
+    steps: Steps = Steps()
+    """of a key press, for inputs that drive in steps"""
+    drivers: dict[str, dict[str, Any]] = {}
+    """settings of each driver by name"""
+
+    def __post_init__(self) -> None:
+        if self.robot is not None:
+            robot_name(self.robot)
+        if self.driver not in DRIVERS:
+            raise ValueError(f"no driver {self.driver!r}; known: {', '.join(DRIVERS)}")
+        for name, settings in self.drivers.items():
+            driver_settings(name, settings)
+
+    def settings_of(self, driver: str, robot: str) -> dict[str, Any]:
+        """Return a driver's settings; the simulated chip lies in the robot's own file."""
+        place = {"path": str(runtime_folder() / f"{robot}.pca9685")} if driver == "simulated" else {}
+        return place | self.drivers.get(driver, {})
+
+
+def load(path: Path | None = None) -> Config:
+    """Return the settings of a file, by default of the first that `places` names.
+
+    Raises ConfigError with the place and the reason of a mistake.
+    """
+    path = path or next((place for place in places() if place.is_file()), None)
+    if path is None:
+        return Config()
+    try:
+        return parse(path.read_bytes())
+    except OSError as error:
+        raise ConfigError(f"cannot read {path}: {error.strerror}") from None
+    except ConfigError as error:
+        raise ConfigError(f"{path}: {error}") from None
+
+
+def parse(text: bytes) -> Config:
+    """Return the settings a TOML text makes; raises ConfigError."""
+    try:
+        values = msgspec.toml.decode(text)
+        return msgspec.convert(values, Config)
+    except msgspec.ValidationError as error:
+        raise ConfigError(_with_names(str(error), values)) from None
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
+        raise ConfigError(f"not TOML: {error}") from None
+
+
+def places() -> Iterator[Path]:
+    """Yield where a config file is looked for, in order."""
+    yield Path("config.toml")
+    yield _xdg("XDG_CONFIG_HOME", ".config") / "config.toml"
+
+
+def own_name() -> str:
+    """Return this machine's robot name, made and kept at the first call."""
+    file = _xdg("XDG_STATE_HOME", ".local/state") / "robot"
+    try:
+        return robot_name(file.read_text().strip())
+    except (OSError, ConfigError, UnicodeDecodeError):
+        name = f"car-{secrets.token_hex(2)}"
+    try:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(name + "\n")
+    except OSError as error:
+        raise ConfigError(f"cannot keep a robot's name in {file}: {error.strerror}; say --robot NAME") from None
+    return name
+
+
+def runtime_folder() -> Path:
+    """Return the folder for what lives as long as this machine is up."""
+    runtime = os.environ.get("XDG_RUNTIME_DIR")
+    if runtime and os.access(runtime, os.W_OK):
+        return Path(runtime) / "zteleop"
+    return Path(tempfile.gettempdir()) / f"zteleop-{os.getuid()}"
+
+
+def _xdg(variable: str, default: str) -> Path:
+    folder = os.environ.get(variable)
+    return (Path(folder) if folder else Path.home() / default) / "zteleop"
+
+
+def _with_names(error: str, values: Any) -> str:
+    """Name the table that msgspec writes as [...]: it is the one that fails alone."""
+    before, marker, after = error.partition("[...]")
+    if not marker:
+        return error
+    path = before.rpartition("$.")[2].split(".")
+    table = values
+    for part in path:
+        table = table[part]
+    for name, entry in table.items():
+        lone: dict[str, Any] = {name: entry}
+        for part in reversed(path):
+            lone = {part: lone}
+        try:
+            msgspec.convert(lone, Config)
+        except msgspec.ValidationError as found:
+            if str(found).partition("[...]")[2] == after:
+                return f"{before}.{name}{after}"
+    return error

@@ -1,0 +1,52 @@
+"""All channels of a vehicle on one chip: wheels to pulses, ticks to wheels."""
+
+from collections.abc import Mapping
+
+from zteleop.control.mixer import Wheels
+from zteleop.control.servo import Servo
+from zteleop.messages import Pulse, Pwm
+
+
+class Calibration:
+    """The servos, and the chip's real tick in microseconds."""
+
+    def __init__(self, servos: Mapping[str, Servo], tick_us: float) -> None:
+        self._servos, self._tick_us = servos, tick_us
+        self.rest: Wheels = dict.fromkeys(servos, 0.0)
+        self.neutral_us = self.pulse_us(self.rest)
+
+    def pulse_us(self, wheels: Wheels) -> dict[int, float]:
+        """Return each channel's pulse width, within its ends."""
+        return {servo.channel: servo.pulse_us(wheels[name]) for name, servo in self._servos.items()}
+
+    def pulses(self, wheels: Wheels) -> list[Pulse]:
+        """Return each channel's pulse in every unit."""
+        widths = self.pulse_us(wheels)
+        return [
+            Pulse(name, servo.channel, wheels[name], width, round(width / self._tick_us))
+            for (name, servo), width in zip(self._servos.items(), widths.values(), strict=True)
+        ]
+
+    def wheels(self, pwm: Pwm) -> Wheels:
+        """Return the wheels that ticks ask for, beyond 1 where they exceed the range."""
+        return {name: self._servos[name].fraction(width) for name, width in self._widths(pwm).items()}
+
+    def exceeds(self, pwm: Pwm) -> bool:
+        """Say whether ticks lie beyond the ends, by more than rounding."""
+        return any(
+            abs(width - self._servos[name].pulse_us(self._servos[name].fraction(width))) > self._tick_us / 2
+            for name, width in self._widths(pwm).items()
+        )
+
+    def neutral(self, pwm: Pwm) -> bool:
+        """Say whether ticks are those of rest, by no more than rounding."""
+        return all(
+            abs(width - self._servos[name].neutral_us) <= self._tick_us / 2
+            for name, width in self._widths(pwm).items()
+        )
+
+    def _widths(self, pwm: Pwm) -> dict[str, float]:
+        return {
+            "steering": pwm.steering_ticks * self._tick_us,
+            "throttle": pwm.throttle_ticks * self._tick_us,
+        }

@@ -1,0 +1,62 @@
+"""Where pulses go. One file per driver, one line below."""
+
+from collections.abc import Iterable, Mapping
+from importlib import import_module
+from typing import Any, Protocol
+
+import msgspec
+
+from zteleop.errors import ConfigError
+
+
+class PulseDriver(Protocol):
+    """Something that repeats pulses on numbered channels until told otherwise.
+
+    Every method raises DeviceError in words when the chip or its bus does not obey.
+    """
+
+    tick_us: float
+    """Length of one of the 4096 counts of a period, from the real prescale."""
+
+    def start(self, neutral_us: Mapping[int, float]) -> None:
+        """Bring the chip up with these channels at neutral, and read them back."""
+
+    def write(self, pulse_us: Mapping[int, float]) -> None:
+        """Write every channel given, in one I2C transaction, whatever they were before."""
+
+    def read(self, channels: Iterable[int]) -> dict[int, float | None]:
+        """Return the pulse widths in microseconds that leave the chip now; None where there are none."""
+
+    def check(self) -> None:
+        """Raise DeviceError when the chip forgot its settings, as it does when its supply dips."""
+
+    def close(self) -> None:
+        """Release the bus; the outputs stay as last written."""
+
+
+DRIVERS = {
+    "pca9685": "zteleop.drivers.pca9685",
+    "simulated": "zteleop.drivers.simulated",
+}
+
+
+def open_driver(
+    name: str, settings: Mapping[str, object] | msgspec.Struct, *, exclusive: bool = True
+) -> PulseDriver:
+    """Open the driver of that name; `exclusive=False` is for the watchdog's hand alone.
+
+    Raises ConfigError for an unknown name or setting, DeviceError when the chip is missing or taken.
+    """
+    if name not in DRIVERS:
+        raise ConfigError(f"no driver named {name!r}; known: {', '.join(DRIVERS)}")
+    module = import_module(DRIVERS[name])
+    driver: PulseDriver = module.open_driver(_checked(name, settings, module.SETTINGS), exclusive=exclusive)
+    return driver
+
+
+def _checked(name: str, settings: Mapping[str, object] | msgspec.Struct, kind: type[Any]) -> Any:
+    try:
+        return msgspec.convert(settings, kind)
+    except msgspec.ValidationError as error:
+        problem, _, path = str(error).partition(" - at `$")
+        raise ConfigError(f"drivers.{name}{path.rstrip('`')}: {problem}") from error

@@ -1,0 +1,77 @@
+"""One chip's registers through its bus: retried where that is right, checked, and failing in words."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+
+from zteleop.drivers.i2c import I2C, NOBODY, Block, answering, failure
+from zteleop.drivers.registers import MODE1, RESTART, register_name
+from zteleop.errors import DeviceError
+
+SMBUS_BLOCK = 32
+ATTEMPTS = 3
+
+
+class Port:
+    """The registers at one address of a bus; transfers raise OSError, `in_words` makes it a DeviceError."""
+
+    def __init__(self, i2c: I2C, address: int) -> None:
+        self._i2c, self._address = i2c, address
+        self.what = f"the PCA9685 at 0x{address:02x} on {i2c.name}"
+        self.close = i2c.close
+
+    @contextmanager
+    def in_words(self, search: bool = False) -> Iterator[None]:
+        """Turn OSError into DeviceError; with `search`, a missing chip's sentence says who does answer."""
+        try:
+            yield
+        except DeviceError:
+            raise
+        except OSError as error:
+            found = answering(self._i2c) if search and error.errno in NOBODY else ""
+            raise failure(error, self._i2c.name, self._address, found) from error
+
+    def get(self, register: int) -> int:
+        """Return one register."""
+        return self._i2c.read_byte_data(self._address, register)
+
+    def set(self, register: int, value: int) -> None:
+        """Write one register."""
+        self._i2c.write_byte_data(self._address, register, value)
+
+    def get_block(self, register: int, length: int) -> bytes:
+        """Return up to 32 registers from `register` on."""
+        return bytes(self._i2c.read_i2c_block_data(self._address, register, length))
+
+    def write(self, blocks: Sequence[Block]) -> None:
+        """Write all blocks in one transaction; after an error all of them again at once, at most twice.
+
+        A torn transfer ends in a STOP too, which latches half of it.
+        """
+        for attempt in range(1, ATTEMPTS + 1):
+            try:
+                return self._transact(blocks)
+            except OSError:
+                if attempt == ATTEMPTS:
+                    raise
+
+    def verify(self, wanted: Mapping[int, int]) -> None:
+        """Raise DeviceError naming the registers that do not hold what was written."""
+        found = {register: self.get(register) for register in wanted}
+        found[MODE1] &= ~RESTART
+        wrong = [
+            f"{register_name(register)} reads 0x{found[register]:02x}, not 0x{value:02x}"
+            for register, value in wanted.items()
+            if found[register] != value
+        ]
+        if wrong:
+            raise DeviceError(
+                f"{self.what} does not hold what was written ({', '.join(wrong)}); "
+                "check its supply, and that nothing else writes to it"
+            )
+
+    def _transact(self, blocks: Sequence[Block]) -> None:
+        if len(blocks) == 1 and len(blocks[0][1]) <= SMBUS_BLOCK:
+            register, data = blocks[0]
+            self._i2c.write_i2c_block_data(self._address, register, list(data))
+        elif blocks:
+            self._i2c.write_blocks(self._address, blocks)

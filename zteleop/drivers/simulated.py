@@ -1,0 +1,155 @@
+"""A PCA9685 in a memory-mapped file, under the real driver: byte n of the file is register n.
+
+Like the chip it outlives its drivers, keeps the last pulse of a killed one, and can be watched from outside.
+"""
+
+import fcntl
+import os
+from collections.abc import Sequence
+from mmap import ACCESS_READ, ACCESS_WRITE, mmap
+from typing import Annotated, Self
+
+from msgspec import Meta, Struct
+
+from zteleop.drivers.chip import POWER_UP, SIZE, Chip
+from zteleop.drivers.i2c import EREMOTEIO, Block
+from zteleop.drivers.pca9685 import Pca9685, Pca9685Settings
+from zteleop.drivers.registers import OSCILLATOR_HZ, prescale
+from zteleop.errors import DeviceError
+
+LOOKS = 8
+
+
+class SimulatedSettings(Struct, frozen=True, forbid_unknown_fields=True):
+    path: str = ""
+    """The file of registers; empty is `default_path()`."""
+    frequency_hz: Annotated[float, Meta(ge=24, le=1526)] = 60.0
+    osc_hz: Annotated[float, Meta(ge=20e6, le=30e6)] = OSCILLATOR_HZ
+
+    def __post_init__(self) -> None:
+        prescale(self.frequency_hz, self.osc_hz)
+
+
+SETTINGS = SimulatedSettings
+
+
+class SimulatedI2C:
+    """A bus with one chip on it; every write is one `transfer`, which is where faults can be put."""
+
+    def __init__(self, chip: Chip, name: str, address: int = 0x40) -> None:
+        self.name = name
+        self.chip = chip
+        self.address = address
+
+    def transfer(self, address: int, blocks: Sequence[Block]) -> None:
+        """Write all blocks in one transaction, or raise OSError with the kernel's errno."""
+        self._select(address)
+        self.chip.write(blocks)
+
+    def read_i2c_block_data(self, address: int, register: int, length: int) -> list[int]:
+        self._select(address)
+        return list(self.chip.read(register, length))
+
+    def read_byte_data(self, address: int, register: int) -> int:
+        return self.read_i2c_block_data(address, register, 1)[0]
+
+    def write_byte_data(self, address: int, register: int, value: int) -> None:
+        self.transfer(address, [(register, bytes((value,)))])
+
+    def write_i2c_block_data(self, address: int, register: int, data: Sequence[int]) -> None:
+        self.transfer(address, [(register, bytes(data))])
+
+    def write_blocks(self, address: int, blocks: Sequence[Block]) -> None:
+        self.transfer(address, blocks)
+
+    def close(self) -> None:
+        if isinstance(self.chip.memory, mmap):
+            self.chip.memory.close()
+
+    def _select(self, address: int) -> None:
+        if address != self.address:
+            raise OSError(EREMOTEIO, "nobody answers")
+
+
+class Registers:
+    """A chip's registers seen from outside: whoever holds this cannot write them."""
+
+    def __init__(self, memory: mmap) -> None:
+        self._memory = memory
+
+    def snapshot(self) -> bytes:
+        """Return all 256 registers between two transactions."""
+        seen = self._memory[:]
+        for _ in range(LOOKS):  # the writer's copy takes nanoseconds: two equal looks are past it
+            again = self._memory[:]
+            if again == seen:
+                break
+            seen = again
+        return seen
+
+    def close(self) -> None:
+        self._memory.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+def open_driver(settings: SimulatedSettings, *, exclusive: bool = True) -> Pca9685:
+    """Open the real driver on the simulated chip; switch the chip on if there is none.
+
+    Raises DeviceError when the file cannot be opened or another process drives the chip.
+    """
+    path = settings.path or default_path()
+    board = Pca9685Settings(frequency_hz=settings.frequency_hz, osc_hz=settings.osc_hz)
+    driver = Pca9685(SimulatedI2C(open_chip(path), path, board.address), board)
+    if exclusive:
+        driver.claim(f"{path}.lock")
+    return driver
+
+
+def open_chip(path: str) -> Chip:
+    """Open the chip in that file to write it; switch it on if there is none.
+
+    Raises DeviceError when the file cannot be opened.
+    """
+    return Chip(_map(path, ACCESS_WRITE))
+
+
+def open_registers(path: str = "") -> Registers:
+    """Watch the chip in that file; switch it on if there is none, so that either side may start first.
+
+    Raises DeviceError when the file cannot be opened.
+    """
+    return Registers(_map(path or default_path(), ACCESS_READ))
+
+
+def default_path(robot: str = "robot") -> str:
+    """Return where a robot's simulated chip is, in the user's runtime folder."""
+    folder = os.environ.get("XDG_RUNTIME_DIR") or f"/tmp/zteleop-{os.getuid()}"
+    return f"{folder}/zteleop/{robot}.pca9685"
+
+
+def _map(path: str, access: int) -> mmap:
+    try:
+        os.makedirs(os.path.dirname(path) or ".", mode=0o700, exist_ok=True)
+        file = os.open(path, os.O_RDWR | os.O_CREAT, 0o600)
+        try:
+            _switch_on(file)
+            return mmap(file, SIZE, access=access)
+        finally:
+            os.close(file)
+    except OSError as error:
+        raise DeviceError(
+            f"cannot open the simulated chip {path}: {error.strerror}; set path under [drivers.simulated]"
+        ) from error
+
+
+def _switch_on(file: int) -> None:
+    """Give a file that is not a chip the registers of one that has just got power."""
+    fcntl.flock(file, fcntl.LOCK_EX)  # two processes may start at once; closing unlocks
+    if os.fstat(file).st_size != SIZE:
+        os.ftruncate(file, SIZE)
+        os.pwrite(file, POWER_UP, 0)

@@ -1,0 +1,40 @@
+"""Where acts come from: one file per device, one line below."""
+
+from typing import Literal, Protocol, Self
+
+from zteleop.control.stick import Speeds, Stick
+from zteleop.messages import Vehicle
+
+INPUTS = {
+    "keyboard": ("zteleop.inputs.keyboard", "drive with the keys of this terminal"),
+}
+"""Name to (module, one line of help)."""
+
+
+class Input(Protocol):
+    """A device an operator holds, used in a `with`."""
+
+    drive: Literal["step", "hold"]
+    """step makes Pwm (latched levers), hold makes Twist (drive while held)."""
+    speeds: Speeds
+    """What a full stick means."""
+    finished: bool
+    """The operator asked to end."""
+
+    def fileno(self) -> int | None:
+        """Return what turns readable when something was done; None for a device without a file."""
+
+    def fit(self, vehicle: Vehicle) -> None:
+        """Learn, or relearn, the limits of the robot driven."""
+
+    def read(self, now: float) -> bool:
+        """Take in what arrived, without blocking; True when the operator acted."""
+
+    def stick(self, now: float) -> Stick:
+        """Return where the stick is now."""
+
+    def reset(self, now: float) -> None:
+        """Go back to neutral; what is held must be let go first."""
+
+    def __enter__(self) -> Self: ...
+    def __exit__(self, *exc: object) -> None: ...

@@ -1,0 +1,82 @@
+"""Which keys are down on a terminal that tells of presses and repeats, never of releases.
+
+Only the newest key repeats, so its repeats speak for the key of the other axis that was down before it.
+"""
+
+from zteleop.control.stick import Stick
+
+FIRST = 0.6
+"""s that a first press counts, until repeats may begin."""
+SHORTEST_GAP, LONGEST_GAP = 0.12, 0.3
+"""s after the last repeat until a key counts as let go."""
+REPEATING = 0.1
+"""s; no finger taps faster than this, so shorter intervals are repeats."""
+
+
+class HeldKeys:
+    """What is held now; axes are `forward` and `turn`, signs 1 and -1 (REP-103)."""
+
+    def __init__(self) -> None:
+        self._axes: dict[str, int] = {}
+        self._newest = ""
+        self._count = 0
+        self._seen = 0.0
+        self._until = 0.0
+        self._interval = 0.0
+
+    @property
+    def gap(self) -> float:
+        """s that a repeat counts, by the interval measured."""
+        return min(LONGEST_GAP, max(SHORTEST_GAP, 3 * self._interval))
+
+    def press(self, key: str, axis: str, sign: int, now: float) -> None:
+        """Take in a press or a repeat; the last pressed of one axis wins."""
+        alive = now < self._until
+        if not alive:
+            self._axes.clear()
+        if alive and key == self._newest:
+            self._repeat(now)
+        else:
+            self._newest, self._count, self._until = key, 0, now + FIRST
+        self._axes[axis] = sign
+        self._seen = now
+
+    def clear(self) -> None:
+        """Count every key as let go."""
+        self._axes.clear()
+        self._until, self._newest = 0.0, ""
+
+    def stick(self, now: float) -> Stick:
+        """Return what the held keys ask for; nobody holds it when none is."""
+        if now >= self._until:
+            return Stick()
+        return Stick(float(self._axes.get("forward", 0)), float(self._axes.get("turn", 0)), deadman=True)
+
+    def _repeat(self, now: float) -> None:
+        interval, self._count = now - self._seen, self._count + 1
+        if self._count > 1:
+            self._interval += (interval - self._interval) / 4 if self._interval else interval
+        lapse = now + self.gap
+        # the first press's allowance ends as soon as repeats are there to speak for the key
+        self._until = lapse if self._count > 1 and interval <= REPEATING else max(self._until, lapse)
+
+
+class Block:
+    """Keys that were down at a reset; their repeats move nothing until they have been quiet for FIRST."""
+
+    def __init__(self) -> None:
+        self._seen: dict[str, float] = {}
+        self._blocked: dict[str, float] = {}
+
+    def passes(self, key: str, now: float) -> bool:
+        """Return whether a key may act; one that may not stays blocked for longer."""
+        self._seen[key] = now
+        since = self._blocked.pop(key, None)
+        if since is None or now - since >= FIRST:
+            return True
+        self._blocked[key] = now
+        return False
+
+    def block(self, now: float) -> None:
+        """Block every key that may still be down."""
+        self._blocked |= {key: now for key, seen in self._seen.items() if now - seen < FIRST}

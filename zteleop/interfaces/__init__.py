@@ -1,0 +1,1 @@
+"""What messages are called and how they look from outside."""

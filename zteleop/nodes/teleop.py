@@ -1,0 +1,132 @@
+"""From an input device to commands: what the stick asks for, at each act and 20 times a second."""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+from zteleop.bus import clock
+from zteleop.bus.node import Node
+from zteleop.control.stick import Stick, to_pwm, to_twist
+from zteleop.inputs import Input
+from zteleop.messages import (
+    DriveStatus,
+    Header,
+    Log,
+    Odometry,
+    Pwm,
+    Twist,
+    TwistStamped,
+    Vehicle,
+)
+
+PERIOD = 0.05
+NEUTRALS = 3
+LINK_LOSS = 2.0
+
+
+class View(NamedTuple):
+    """What there is to show the operator."""
+
+    now: float
+    vehicle: Vehicle
+    stick: Stick
+    command: Twist | Pwm | None
+    status: DriveStatus | None
+    """None when no actuator is heard"""
+    ours: bool
+    """the robot obeys this device"""
+    odom: Odometry | None
+    note: str
+
+
+class Teleop:
+    """One operator, one device, one robot. An idle device says neutral three times, then nothing."""
+
+    def __init__(
+        self, node: Node, device: Input, source: str, vehicle: Vehicle, show: Callable[[View], None]
+    ) -> None:
+        self._node, self._device, self._vehicle, self._show = node, device, vehicle, show
+        self._heard = node.heard()
+        self._twists = node.publisher("cmd_vel", TwistStamped, source=source)
+        self._pwms = node.publisher("pwm", Pwm, source=source)
+        self._statuses = node.subscription("drive_status", DriveStatus)
+        self._odoms = node.subscription("odom", Odometry)
+        self._logs = node.subscription("log", Log)
+        self._status: DriveStatus | None = None
+        self._status_at = float("-inf")
+        self._odom: Odometry | None = None
+        self._note = ""
+        self._epoch: int | None = None
+        self._neutrals = 0
+        device.fit(vehicle)
+
+    def run(self) -> None:
+        """Drive until the operator has enough; the last word is neutral."""
+        file = self._device.fileno()
+        if file is not None:
+            self._node.watch(file, self.obey)
+        self._node.every(PERIOD)(self.obey)
+        try:
+            self._node.spin()
+        finally:
+            self._say(None)
+
+    def obey(self) -> None:
+        """Take in what the operator did, say what the stick asks for, and show it."""
+        now = clock.now()
+        self._notice_robot(now)
+        if self._device.read(now):
+            self._twists.act()
+            self._pwms.act()
+        stick = self._device.stick(now)
+        command = self._command(stick)
+        if command:
+            self._neutrals = NEUTRALS
+        if self._neutrals:
+            self._neutrals -= command is None
+            self._say(command)
+        self._show(self._view(now, stick, command))
+        if self._device.finished:
+            self._node.stop()
+
+    def _command(self, stick: Stick) -> Twist | Pwm | None:
+        if self._device.drive == "step":
+            return to_pwm(stick, self._vehicle)
+        return to_twist(stick, self._device.speeds, self._vehicle)
+
+    def _say(self, command: Twist | Pwm | None) -> None:
+        if self._device.drive == "step":
+            self._pwms.repeat(command if isinstance(command, Pwm) else neutral_pwm(self._vehicle))
+        else:
+            twist = command if isinstance(command, Twist) else Twist.planar()
+            self._twists.repeat(TwistStamped(Header(clock.stamp(), "base_link"), twist))
+
+    def _notice_robot(self, now: float) -> None:
+        """Let go when the robot is another one than when the operator acted: restarted, or long unheard."""
+        beat, vehicle = self._heard.beat, self._heard.vehicle
+        gone = now - self._heard.at > LINK_LOSS
+        epoch = None if beat is None or gone else beat.epoch
+        if epoch != self._epoch:
+            self._epoch = epoch
+            self._device.reset(now)
+        if vehicle and vehicle != self._vehicle:
+            self._vehicle = vehicle
+            self._device.fit(vehicle)
+
+    def _view(self, now: float, stick: Stick, command: Twist | Pwm | None) -> View:
+        status = self._statuses.newest()
+        if status:
+            self._status, self._status_at = status, now
+        elif now - self._status_at > LINK_LOSS:
+            self._status = None
+        self._odom = self._odoms.newest() or self._odom
+        log = self._logs.newest()
+        self._note = f"{log.name}: {log.msg}" if log else self._note
+        publisher = self._pwms if self._device.drive == "step" else self._twists
+        ours = self._status is not None and self._status.operator == publisher.sender
+        return View(now, self._vehicle, stick, command, self._status, ours, self._odom, self._note)
+
+
+def neutral_pwm(vehicle: Vehicle) -> Pwm:
+    """Return the ticks at which a vehicle rests."""
+    neutral = {channel.name: channel.neutral_ticks for channel in vehicle.channels}
+    return Pwm(neutral["steering"], neutral["throttle"])

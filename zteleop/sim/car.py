@@ -1,0 +1,43 @@
+"""A car with one motor and front wheels that steer: the bicycle model, base_link on the rear axle."""
+
+from collections.abc import Mapping
+from math import tan
+from typing import Annotated
+
+from msgspec import Meta
+
+from zteleop.control.mixer import Ackermann
+from zteleop.control.servo import Servo
+from zteleop.sim.body import Body, Pulses
+from zteleop.sim.esc import EscSettings, fraction
+
+
+class CarSettings(EscSettings, frozen=True, forbid_unknown_fields=True):
+    servo_speed: Annotated[float, Meta(gt=0, le=1000)] = 6.0
+    """rad/s of the front wheels."""
+
+
+class Car(Body):
+    def __init__(
+        self, mixer: Ackermann, servos: Mapping[str, Servo], settings: CarSettings | None = None
+    ) -> None:
+        super().__init__()
+        self._mixer, self._settings = mixer, settings or CarSettings()
+        self._steering, self._throttle = servos["steering"], servos["throttle"]
+        self.steering_angle = 0.0
+        """rad of the front wheels, positive to the left."""
+
+    def move(self, pulse_us: Pulses, dt: float) -> None:
+        """Turn the front wheels and the motor towards what the pulses ask for."""
+        self._steer(pulse_us.get(self._steering.channel), dt)
+        throttle = self._settings.throttle(self._throttle, pulse_us.get(self._throttle.channel))
+        self.speed = self._settings.spin(self.speed, throttle * self._mixer.max_speed, dt)
+        self.yaw_rate = self.speed * tan(self.steering_angle) / self._mixer.wheelbase
+
+    def _steer(self, pulse_us: float | None, dt: float) -> None:
+        wanted = fraction(self._steering, pulse_us)
+        if wanted is None:  # a servo without a pulse is limp, and the wheels stay
+            return
+        reach = self._settings.servo_speed * dt
+        error = wanted * self._mixer.max_steering_angle - self.steering_angle
+        self.steering_angle += max(-reach, min(reach, error))

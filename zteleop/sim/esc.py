@@ -1,0 +1,43 @@
+"""An electronic speed controller and its motor: from a pulse to the speed of a wheel."""
+
+from typing import Annotated
+
+from msgspec import Meta, Struct
+
+from zteleop.control.servo import Servo
+
+NotNegative = Annotated[float, Meta(ge=0, le=1000)]
+SHORTEST_US, LONGEST_US = 500.0, 2500.0
+
+
+class EscSettings(Struct, frozen=True, forbid_unknown_fields=True):
+    esc_deadband_us: NotNegative = 15.0
+    """To either side of neutral."""
+    motor_lag: Annotated[float, Meta(gt=0, le=10)] = 0.15
+    """s to reach 63 % of a new speed."""
+    rolling_resistance: NotNegative = 0.4
+    """m/s^2 that stop a wheel nobody drives, beside the motor's drag."""
+    grip: Annotated[float, Meta(gt=0, le=100)] = 6.0
+    """m/s^2 that the tyres can take."""
+
+    def throttle(self, servo: Servo, pulse_us: float | None) -> float:
+        """Return the fraction, -1..1, that the motor is told; 0 without a pulse, as at neutral."""
+        heard = fraction(servo, pulse_us)
+        if heard is None or abs(servo.pulse_us(heard) - servo.neutral_us) <= self.esc_deadband_us:
+            return 0.0
+        return heard
+
+    def spin(self, speed: float, wanted: float, dt: float) -> float:
+        """Return the speed in m/s after `dt` of wanting another."""
+        change = (wanted - speed) * min(1.0, dt / self.motor_lag)
+        if wanted == 0.0:
+            drag = min(self.rolling_resistance * dt, abs(speed + change))
+            change -= drag if speed > 0 else -drag
+        return speed + max(-self.grip * dt, min(self.grip * dt, change))
+
+
+def fraction(servo: Servo, pulse_us: float | None) -> float | None:
+    """Return the fraction, -1..1, a pulse asks for; None when it is none that a servo understands."""
+    if pulse_us is None or not SHORTEST_US <= pulse_us <= LONGEST_US:
+        return None
+    return max(-1.0, min(1.0, servo.fraction(pulse_us)))
