@@ -2,7 +2,6 @@
 
 import os
 import secrets
-import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -14,7 +13,8 @@ from zteleop.bus.names import robot_name
 from zteleop.bus.session import BusSettings
 from zteleop.control.drive import DriveSettings
 from zteleop.control.stick import Speeds
-from zteleop.drivers import DRIVERS, driver_settings
+from zteleop.drivers import settings_of
+from zteleop.drivers.simulated import default_path
 from zteleop.errors import ConfigError
 from zteleop.inputs.levers import Steps
 
@@ -37,14 +37,12 @@ class Config(Struct, frozen=True, forbid_unknown_fields=True):
     def __post_init__(self) -> None:
         if self.robot is not None:
             robot_name(self.robot)
-        if self.driver not in DRIVERS:
-            raise ValueError(f"no driver {self.driver!r}; known: {', '.join(DRIVERS)}")
-        for name, settings in self.drivers.items():
-            driver_settings(name, settings)
+        for name, settings in {self.driver: {}, **self.drivers}.items():
+            settings_of(name, settings)
 
-    def settings_of(self, driver: str, robot: str) -> dict[str, Any]:
-        """Return a driver's settings; the simulated chip lies in the robot's own file."""
-        place = {"path": str(runtime_folder() / f"{robot}.pca9685")} if driver == "simulated" else {}
+    def driver_settings(self, driver: str, robot: str) -> dict[str, Any]:
+        """Return a driver's settings; a simulated chip lies in a file named after its robot."""
+        place = {"path": default_path(robot)} if driver == "simulated" else {}
         return place | self.drivers.get(driver, {})
 
 
@@ -92,16 +90,10 @@ def own_name() -> str:
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(name + "\n")
     except OSError as error:
-        raise ConfigError(f"cannot keep a robot's name in {file}: {error.strerror}; say --robot NAME") from None
+        raise ConfigError(
+            f"cannot keep a robot's name in {file}: {error.strerror}; say --robot NAME"
+        ) from None
     return name
-
-
-def runtime_folder() -> Path:
-    """Return the folder for what lives as long as this machine is up."""
-    runtime = os.environ.get("XDG_RUNTIME_DIR")
-    if runtime and os.access(runtime, os.W_OK):
-        return Path(runtime) / "zteleop"
-    return Path(tempfile.gettempdir()) / f"zteleop-{os.getuid()}"
 
 
 def _xdg(variable: str, default: str) -> Path:

@@ -57,12 +57,5 @@ def resolve(text: str, robot: str | None) -> Name:
     return Name(robot_name(parts[0]), "/".join(chunk(part, "a topic's name") for part in path))
 
 
-def split_key(key: str) -> Name | None:
-    """Return what a key stands for; None when it is not a robot's or holds a wildcard."""
-    root, _, rest = key.partition("/")
-    robot, _, path = rest.partition("/")
-    return Name(robot, path) if root == "robot" and path and "*" not in key else None
-
-
 def _known(part: str) -> bool:
     return part in TOPICS or part in ALIASES

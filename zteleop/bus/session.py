@@ -21,6 +21,7 @@ PORT = 7447
 ROBOT_ENDPOINT = f"tcp/[::]:{PORT}"
 SAME_MACHINE = f"tcp/127.0.0.1:{PORT}"
 _RETRY = 0.1
+_QUIET = 0.06
 
 
 class BusSettings(Struct, frozen=True, forbid_unknown_fields=True):
@@ -36,7 +37,7 @@ class BusSettings(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def open_session(settings: BusSettings, *, settle: bool = False) -> zenoh.Session:
-    """Join the bus; with `settle`, first wait (at most 0.5 s) until somebody is found.
+    """Join the bus; with `settle`, first wait (at most 0.5 s) until everybody is found.
 
     Raises ConfigError for an endpoint that is none, BusError when there is no router to a client.
     """
@@ -44,11 +45,24 @@ def open_session(settings: BusSettings, *, settle: bool = False) -> zenoh.Sessio
     give_up = time.monotonic() + settings.patience
     while True:
         try:
-            return zenoh.open(config)
+            session = zenoh.open(config)
+            return _settle(session) if settle else session
         except zenoh.ZError as error:
             if settings.mode != "client" or time.monotonic() > give_up:
                 raise BusError(_words(settings, error)) from error
         time.sleep(_RETRY)
+
+
+def _settle(session: zenoh.Session) -> zenoh.Session:
+    """Wait until no further peer has been found for a while: each tells of the ones it knows."""
+    found: set[str] = set()
+    quiet_at = time.monotonic() + _QUIET
+    while time.monotonic() < quiet_at:
+        now_found = {str(peer) for peer in [*session.info.peers_zid(), *session.info.routers_zid()]}
+        if now_found != found:
+            found, quiet_at = now_found, time.monotonic() + _QUIET
+        time.sleep(0.005)
+    return session
 
 
 def _configure(settings: BusSettings, settle: bool) -> zenoh.Config:
@@ -56,7 +70,7 @@ def _configure(settings: BusSettings, settle: bool) -> zenoh.Config:
     values = {
         "mode": settings.mode,
         "connect/endpoints": connect,
-        "connect/timeout_ms": 0,
+        "connect/timeout_ms": 0 if settings.mode == "client" else -1,  # -1: goes on trying behind our back
         "connect/exit_on_failure": settings.mode == "client",
         "connect/retry": {"period_init_ms": 100, "period_max_ms": 1000, "period_increase_factor": 1.5},
         "listen/exit_on_failure": ROBOT_ENDPOINT not in settings.listen,

@@ -5,7 +5,7 @@ import msgspec
 from zteleop import config
 from zteleop.bus import presence
 from zteleop.bus.node import Node
-from zteleop.bus.session import ROBOT_ENDPOINT
+from zteleop.bus.session import ROBOT_ENDPOINT, open_session
 from zteleop.cli import options
 from zteleop.config import Config
 from zteleop.control.drive import DriveSettings
@@ -18,7 +18,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     options.add(parser)
     parser.add_argument("--driver", choices=DRIVERS, help="the chip to write to (default: simulated)")
     parser.add_argument(
-        "--pulse-duty", metavar="SHARE", type=float, help="obey the throttle for this share of the time, 0 to 1"
+        "--pulse-duty",
+        metavar="SHARE",
+        type=float,
+        help="obey the throttle for this share of the time, 0 to 1",
     )
     parser.add_argument(
         "--neutral-offset", metavar="TICKS", type=int, default=0, help="shift the throttle's neutral"
@@ -32,13 +35,13 @@ def run(arguments: argparse.Namespace) -> None:
     bus = settings.bus
     if bus.mode == "peer" and bus.multicast and not bus.listen:
         bus = msgspec.structs.replace(bus, listen=[ROBOT_ENDPOINT, "tcp/[::]:0"])
-    with options.open_bus(bus) as session:
+    with open_session(bus, settle=True) as session:
         _only_one(presence.holders(session, robot, "actuator"), robot)
         with Node("actuator", robot, session=session) as node:
             options.end_with_parent(arguments, node)
             _yield_to_the_first(presence.holders(session, robot, "actuator"), robot)
             name = arguments.driver or settings.driver
-            driver = open_driver(name, settings.settings_of(name, robot))
+            driver = open_driver(name, settings.driver_settings(name, robot))
             Actuator(node, _tuned(settings, arguments, driver.tick_us), driver).run()
 
 
@@ -57,7 +60,9 @@ def _tuned(settings: Config, arguments: argparse.Namespace, tick_us: float) -> D
 
 def _only_one(holders: list[str], robot: str) -> None:
     if holders:
-        raise DeviceError(f"robot {robot} has an actuator already: {', '.join(holders)}; stop it, or say --robot")
+        raise DeviceError(
+            f"robot {robot} has an actuator already: {', '.join(holders)}; stop it, or say --robot"
+        )
 
 
 def _yield_to_the_first(holders: list[str], robot: str) -> None:

@@ -4,7 +4,7 @@ from pathlib import Path
 from zteleop import config
 from zteleop.config import Config
 from zteleop.control.report import describe
-from zteleop.drivers import tick_us_of
+from zteleop.drivers import tick_us
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -21,7 +21,7 @@ def run(arguments: argparse.Namespace) -> None:
 
 def _summary(settings: Config) -> str:
     """Say in a few lines what a robot with these settings is."""
-    vehicle = describe(settings.drive, tick_us_of(settings.driver, settings.drivers.get(settings.driver, {})))
+    vehicle = describe(settings.drive, tick_us(settings.driver, settings.drivers.get(settings.driver, {})))
     lines = [
         f"robot    {settings.robot or 'a name of its own'}",
         f"driver   {settings.driver}",
@@ -29,7 +29,9 @@ def _summary(settings: Config) -> str:
     ]
     for c in vehicle.channels:
         widths = f"{c.min_us:.0f} {c.neutral_us:.0f} {c.max_us:.0f} us"
-        lines.append(f"{c.name:8} channel {c.channel}: {widths} = {c.min_ticks} {c.neutral_ticks} {c.max_ticks} ticks")
+        lines.append(
+            f"{c.name:8} channel {c.channel}: {widths} = {c.min_ticks} {c.neutral_ticks} {c.max_ticks} ticks"
+        )
     sources = sorted(settings.drive.known_sources.items(), key=lambda item: -item[1].priority)
     lines.append("sources  " + ", ".join(f"{name} {source.priority}" for name, source in sources))
     return "\n".join(lines)

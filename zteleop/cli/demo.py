@@ -16,6 +16,7 @@ from zteleop.cli.keyboard import drive_with_keys, find_vehicle
 from zteleop.config import Config
 from zteleop.errors import BusError
 from zteleop.inputs.script import Script
+from zteleop.messages import Odometry
 from zteleop.nodes.teleop import Teleop, View
 
 START = 10.0
@@ -106,11 +107,11 @@ def child(arguments: list[str], log: IO[str]) -> Iterator["subprocess.Popen[byte
 
 
 def await_robot(node: Node, children: "list[subprocess.Popen[bytes]]", log: Path) -> None:
-    """Wait until the robot beats; raises BusError with a child's last words when it does not."""
+    """Wait until the car stands on its wheels; raises BusError with a child's last words when it does not."""
+    odoms = node.subscription("odom", Odometry)
     give_up = clock.now() + START
     while clock.now() < give_up and all(process.poll() is None for process in children):
-        node.heard().listen()
-        if node.heard().beat and node.heard().vehicle:
+        if node.heard().vehicle and odoms.newest():
             return
         node.spin(0.01)
     words = log.read_text().strip().splitlines()

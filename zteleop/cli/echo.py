@@ -11,7 +11,7 @@ from zteleop.bus.names import resolve
 from zteleop.bus.session import open_session
 from zteleop.bus.topics import topic_of
 from zteleop.cli import options
-from zteleop.errors import BusError, ConfigError, MessageError
+from zteleop.errors import BusError, MessageError
 
 DEPTH = 100
 
@@ -26,11 +26,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> None:
     settings = options.load(arguments)
-    with open_session(settings.bus) as session:
-        try:
-            name = resolve(arguments.topic, settings.robot)
-        except ConfigError:
-            name = resolve(arguments.topic, options.find_robot(session, settings))
+    robot = options.robot_of(arguments.topic, settings)
+    with open_session(settings.bus, settle=robot is None) as session:
+        name = resolve(arguments.topic, robot or options.find_robot(session, settings))
         command = topic_of(name.path).command and "/" not in name.path
         key = f"{name.key}/**" if command else name.key
         channel: Any = zenoh.handlers.RingChannel(DEPTH)

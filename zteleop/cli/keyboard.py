@@ -2,15 +2,16 @@ import argparse
 from collections import deque
 from collections.abc import Callable
 
-
 from zteleop.bus import clock
 from zteleop.bus.node import Node
 from zteleop.cli import options
 from zteleop.config import Config
 from zteleop.control.report import describe
 from zteleop.drivers import tick_us
+from zteleop.inputs.dashboard import Dashboard
 from zteleop.inputs.keyboard import Keyboard
-from zteleop.inputs.screen import Dashboard, render
+from zteleop.inputs.levers import Steps
+from zteleop.inputs.screen import render
 from zteleop.messages import Pwm, Twist, Vehicle
 from zteleop.nodes.teleop import Teleop, View
 
@@ -31,13 +32,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> None:
     settings = options.load(arguments)
-    session = options.open_bus(settings.bus)
-    try:
-        node = Node("keyboard", options.find_robot(session, settings), session=session)
-    except BaseException:
-        session.close()
-        raise
-    with node:
+    with options.join("keyboard", settings) as node:
         drive_with_keys(node, settings, arguments.drive)
 
 
@@ -46,11 +41,9 @@ def drive_with_keys(node: Node, settings: Config, drive: str | None = None) -> N
     vehicle = find_vehicle(node, settings)
     drive = drive or ("step" if vehicle.kind == "ackermann" else "hold")
     node.log.show = lambda line: None  # nothing prints over the screen: it shows the log itself
-    keyboard = Keyboard(
-        "step" if drive == "step" else "hold", speeds=settings.speeds, steps=settings.steps
-    )
+    keyboard = Keyboard("step" if drive == "step" else "hold", speeds=settings.speeds, steps=settings.steps)
     with keyboard:
-        Teleop(node, keyboard, "keyboard", vehicle, painter(keyboard, node.robot or "")).run()
+        Teleop(node, keyboard, "keyboard", vehicle, painter(keyboard, node.robot or "", settings.steps)).run()
 
 
 def find_vehicle(node: Node, settings: Config) -> Vehicle:
@@ -60,10 +53,12 @@ def find_vehicle(node: Node, settings: Config) -> Vehicle:
         if vehicle := node.heard().vehicle:
             return vehicle
         node.spin(0.01)
-    return describe(settings.drive, tick_us(settings.driver, settings.settings_of(settings.driver, "any")))
+    return describe(
+        settings.drive, tick_us(settings.driver, settings.driver_settings(settings.driver, "any"))
+    )
 
 
-def painter(keyboard: Keyboard, robot: str) -> Callable[[View], None]:
+def painter(keyboard: Keyboard, robot: str, steps: Steps) -> Callable[[View], None]:
     """Return what draws the screen, and stops the process when Ctrl-Z asked for it."""
     trail: deque[tuple[float, float]] = deque(maxlen=TRAIL)
 
@@ -87,6 +82,7 @@ def painter(keyboard: Keyboard, robot: str) -> Callable[[View], None]:
             trail=trail,
             idle_left=keyboard.idle_left(view.now),
             note=view.note,
+            steps=steps,
         )
         terminal.draw(render(dashboard, columns, rows, unicode=terminal.unicode, color=terminal.color))
 

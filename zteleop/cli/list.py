@@ -2,6 +2,7 @@ import argparse
 
 from zteleop.bus import presence
 from zteleop.bus.presence import Endpoint
+from zteleop.bus.session import open_session
 from zteleop.bus.topics import topic_of
 from zteleop.cli import options
 
@@ -14,7 +15,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     settings = options.load(arguments)
-    with options.open_bus(settings.bus) as session:
+    with open_session(settings.bus, settle=True) as session:
         endpoints = presence.endpoints(session)
     if settings.robot:
         endpoints = [endpoint for endpoint in endpoints if endpoint.robot == settings.robot]

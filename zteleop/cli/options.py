@@ -9,9 +9,9 @@ import zenoh
 
 from zteleop import config
 from zteleop.bus import presence
-from zteleop.bus.names import robot_name
+from zteleop.bus.names import resolve, robot_name
 from zteleop.bus.node import Node
-from zteleop.bus.session import BusSettings
+from zteleop.bus.session import open_session
 from zteleop.config import Config
 from zteleop.errors import ConfigError
 
@@ -22,7 +22,11 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--robot", metavar="NAME", type=_robot, help="the robot meant, such as archangel")
     parser.add_argument("-m", "--mode", choices=["peer", "client", "router"], help="how to join the bus")
     parser.add_argument(
-        "-e", "--connect", metavar="ENDPOINT", action="append", help="join by this endpoint: tcp/pi.local:7447"
+        "-e",
+        "--connect",
+        metavar="ENDPOINT",
+        action="append",
+        help="join by this endpoint: tcp/pi.local:7447",
     )
     parser.add_argument(
         "-l", "--listen", metavar="ENDPOINT", action="append", help="be reachable at: tcp/[::]:7447"
@@ -64,11 +68,22 @@ def find_robot(session: zenoh.Session, settings: Config) -> str:
     return found[0] if found else config.own_name()
 
 
-def open_bus(settings: BusSettings) -> zenoh.Session:
-    """Join the bus and wait until somebody is found, or nobody is there."""
-    from zteleop.bus.session import open_session
+def robot_of(topic: str, settings: Config) -> str | None:
+    """Return the robot that a topic's name says, else the one selected, if any."""
+    try:
+        return resolve(topic, settings.robot).robot
+    except ConfigError:
+        return settings.robot
 
-    return open_session(settings, settle=True)
+
+def join(name: str, settings: Config) -> Node:
+    """Join the bus as a node of the robot meant."""
+    session = open_session(settings.bus, settle=settings.robot is None)
+    try:
+        return Node(name, find_robot(session, settings), session=session)
+    except BaseException:
+        session.close()  # type: ignore[no-untyped-call]
+        raise
 
 
 def _robot(text: str) -> str:

@@ -1,13 +1,15 @@
 import argparse
 from typing import Any
 
+import msgspec
+
 from zteleop.bus import clock
 from zteleop.bus.names import resolve
 from zteleop.bus.node import Node
 from zteleop.bus.publisher import Publisher, moves
 from zteleop.bus.topics import topic_of
 from zteleop.cli import options
-from zteleop.errors import BusError, ConfigError, MessageError
+from zteleop.errors import BusError, MessageError
 from zteleop.interfaces.values import fill
 from zteleop.messages import Message, message_type
 
@@ -29,23 +31,15 @@ def run(arguments: argparse.Namespace) -> None:
     kind = message_type(arguments.type)
     message = fill(kind, _yaml(arguments.values))
     times = 1 if arguments.once else arguments.times
-    session = options.open_bus(settings.bus)
-    try:
-        robot = _robot(arguments.topic, settings.robot) or options.find_robot(session, settings)
-        name = resolve(arguments.topic, robot)
-        node = Node("pub", name.robot, session=session)
-    except BaseException:
-        session.close()
-        raise
-    with node:
+    robot = options.robot_of(arguments.topic, settings)
+    with options.join("pub", msgspec.structs.replace(settings, robot=robot)) as node:
+        name = resolve(arguments.topic, node.robot)
         publisher = node.publisher(f"/{name.robot}/{name.path}", kind)
         _wait(node, publisher, topic_of(name.path).command)
         _say(node, publisher, message, arguments.rate, times)
 
 
-def _say(
-    node: Node, publisher: Publisher[Message], message: Message, rate: float, times: int | None
-) -> None:
+def _say(node: Node, publisher: Publisher[Message], message: Message, rate: float, times: int | None) -> None:
     """Say a message again and again; a repeated motion ends with a neutral."""
     said = 0
 
@@ -79,13 +73,6 @@ def _wait(node: Node, publisher: Publisher[Message], command: bool) -> None:
     print("nobody hears this yet", flush=True)
 
 
-def _robot(topic: str, robot: str | None) -> str | None:
-    try:
-        return resolve(topic, robot).robot
-    except ConfigError:
-        return robot
-
-
 def _yaml(text: str) -> Any:
     import yaml
 
@@ -93,7 +80,9 @@ def _yaml(text: str) -> Any:
         return yaml.safe_load(text)
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         problem = " ".join(str(error).split())
-        raise MessageError(f"expected YAML such as '{{linear: {{x: 0.2}}}}', found {text!r}: {problem}") from None
+        raise MessageError(
+            f"expected YAML such as '{{linear: {{x: 0.2}}}}', found {text!r}: {problem}"
+        ) from None
 
 
 def _positive(text: str) -> float:

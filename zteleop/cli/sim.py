@@ -15,7 +15,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> None:
     settings = options.load(arguments)
     robot = settings.robot or config.own_name()
-    driver = settings.settings_of("simulated", robot)
+    driver = settings.driver_settings("simulated", robot)
     with Node("sim", robot, settings.bus) as node:
         options.end_with_parent(arguments, node)
         simulator.run(node, settings.drive, driver["path"])

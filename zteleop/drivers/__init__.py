@@ -6,6 +6,7 @@ from typing import Any, Protocol
 
 import msgspec
 
+from zteleop.drivers import registers
 from zteleop.errors import ConfigError
 
 
@@ -47,16 +48,23 @@ def open_driver(
 
     Raises ConfigError for an unknown name or setting, DeviceError when the chip is missing or taken.
     """
-    if name not in DRIVERS:
-        raise ConfigError(f"no driver named {name!r}; known: {', '.join(DRIVERS)}")
-    module = import_module(DRIVERS[name])
-    driver: PulseDriver = module.open_driver(_checked(name, settings, module.SETTINGS), exclusive=exclusive)
+    checked = settings_of(name, settings)
+    driver: PulseDriver = import_module(DRIVERS[name]).open_driver(checked, exclusive=exclusive)
     return driver
 
 
-def _checked(name: str, settings: Mapping[str, object] | msgspec.Struct, kind: type[Any]) -> Any:
+def settings_of(name: str, settings: Mapping[str, object] | msgspec.Struct) -> Any:
+    """Return a driver's settings, checked; ConfigError for an unknown driver, name or value."""
+    if name not in DRIVERS:
+        raise ConfigError(f"no driver named {name!r}; known: {', '.join(DRIVERS)}")
     try:
-        return msgspec.convert(settings, kind)
+        return msgspec.convert(settings, import_module(DRIVERS[name]).SETTINGS)
     except msgspec.ValidationError as error:
         problem, _, path = str(error).partition(" - at `$")
         raise ConfigError(f"drivers.{name}{path.rstrip('`')}: {problem}") from error
+
+
+def tick_us(name: str, settings: Mapping[str, object]) -> float:
+    """Return the length of a count, in microseconds, that a driver with these settings will have."""
+    checked = settings_of(name, settings)
+    return registers.tick_us(registers.prescale(checked.frequency_hz, checked.osc_hz), checked.osc_hz)

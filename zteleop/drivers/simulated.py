@@ -149,7 +149,8 @@ def _map(path: str, access: int) -> mmap:
 
 def _switch_on(file: int) -> None:
     """Give a file that is not a chip the registers of one that has just got power."""
-    fcntl.flock(file, fcntl.LOCK_EX)  # two processes may start at once; closing unlocks
+    fcntl.flock(file, fcntl.LOCK_EX)  # two processes may start at once
     if os.fstat(file).st_size != SIZE:
         os.ftruncate(file, SIZE)
         os.pwrite(file, POWER_UP, 0)
+    fcntl.flock(file, fcntl.LOCK_UN)  # the mapping keeps a copy of the file open, and with it the lock

@@ -14,8 +14,8 @@ WIDE = 62
 """Columns from which on the lines are laid out as the Donkeycar nodes did."""
 TABLE = 44
 """Columns that a table of two columns takes."""
-MOST_CELLS = 12
-"""Of each side of a bar; more steps than that share cells."""
+THROTTLE_CELLS = 8
+"""Of each side of the throttle's bar, whose many steps share them; steering has a cell a step where it fits."""
 OUTPUT = "Currently outputting:[Steering PWM, Throttle PWM] = "
 COLORS = {"driving": "green", "stopped": "red", "fault": "red"}
 WORDS = {"steering": ("left", "right", "straight"), "throttle": ("forward", "reverse", "neutral")}
@@ -88,8 +88,8 @@ def heading(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
     word, who = state(d, unicode), operator(d, unicode)
     reason = wrap(why(d, unicode), columns)
     if columns < WIDE:
-        rows = [Line(0, word), Line(6, robot), *([line(4, who)] if who else [])]
-        return [*rows, *(line(2 + i, text) for i, text in enumerate(reason[:4]))]
+        rows = [Line(0, word), Line(7, robot), *([line(4, who)] if who else [])]
+        return [*rows, *(line(2 + i, text) for i, text in enumerate(reason[:5]))]
     word += [Span(f", {who}")] if who else []
     gap = columns - sum(width(span.text) for span in robot + word)
     reason = [*reason, "", ""][:2]
@@ -137,7 +137,7 @@ def step_lines(d: Dashboard, columns: int) -> list[Line]:
         line(9),
         bar_line(d, "steering", columns),
         bar_line(d, "throttle", columns),
-        idle(d),
+        idle(d, columns),
     ]
 
 
@@ -163,11 +163,12 @@ def bar_line(d: Dashboard, axis: Axis, columns: int) -> Line:
     if d.pwm is not None:
         ticks = d.pwm.steering_ticks if axis == "steering" else d.pwm.throttle_ticks
     count, most = lever.count(ticks), max(lever.most(1), lever.most(-1), 1)
-    cells = max(1, min(most, MOST_CELLS, (columns - 13) // 2))
+    room = (columns - 13 - (16 if columns >= TABLE else 0)) // 2
+    cells = max(1, min(most, room, THROTTLE_CELLS if axis == "throttle" else most))
     # steering grows to the right for right, which is the negative side of the axis
     drawn = bar(-count, most, cells, "<>") if axis == "steering" else bar(count, most, cells, "-+")
     plus, minus, rest = WORDS[axis]
-    words = f"{abs(count)} of {lever.most(count)} {plus if count > 0 else minus}" if count else rest
+    words = f"{plus if count > 0 else minus} {abs(count)}/{lever.most(count)}" if count else rest
     return line(3, f"{axis:<10}{drawn}  {words}")
 
 
@@ -183,16 +184,22 @@ def hold_lines(d: Dashboard, columns: int) -> list[Line]:
     applied = d.status.applied if d.status else None
     full = f"{d.speeds.forward:.2f}", f"{d.speeds.turn:.2f}" if turns else "full lock"
     if columns < TABLE:
+        full = full[0], full[1].removeprefix("full ")
         wanted = f"{'wanted':<9}{twist_pair(d.twist)}"
         got = f"{'applied':<9}{twist_pair(applied)}"
-        return [line(1, wanted), line(3, got), line(4, f"{'speeds':<9}{full[0]:>5} {full[1]:>6}"), idle(d)]
+        return [
+            line(1, wanted),
+            line(3, got),
+            line(4, f"{'speeds':<9}{full[0]:>5} {full[1]:>5}"),
+            idle(d, columns),
+        ]
     turn_keys = "rad/s  i/k" if turns else ""
     return [
         line(8, f"{'':<14}{'forward':<15}turning", "dim"),
         line(1, row("wanted", d.twist)),
         line(3, row("applied", applied)),
         line(4, f"{'full stick':<14}{full[0]:>5} m/s  u/j  {full[1]:>5} {turn_keys}".rstrip()),
-        idle(d),
+        idle(d, columns),
     ]
 
 
@@ -206,10 +213,11 @@ def row(label: str, twist: Twist | None) -> str:
     return f"{label:<13}{twist.linear.x:>+6.2f} m/s      {twist.angular.z:>+5.2f} rad/s"
 
 
-def idle(d: Dashboard) -> Line:
+def idle(d: Dashboard, columns: int) -> Line:
+    label = f"{'idle':<10}" if columns >= 28 else ""
     if d.idle_left is None:
-        return line(7, f"{'idle':<10}at rest", "dim")
-    return line(4, f"{'idle':<10}neutral in {d.idle_left:.1f} s", "yellow" if d.idle_left < 2 else "")
+        return line(7, f"{label}at rest", "dim")
+    return line(4, f"{label}neutral in {d.idle_left:.1f} s", "yellow" if d.idle_left < 2 else "")
 
 
 def actuator_lines(d: Dashboard, unicode: bool) -> list[Line]:

@@ -8,9 +8,9 @@ from msgspec.structs import replace
 from zteleop.control.stick import Speeds, Stick
 from zteleop.errors import DeviceError
 from zteleop.inputs.held_keys import Block, HeldKeys
-from zteleop.inputs.keymap import DIRECTIONS, Axis, bindings
+from zteleop.inputs.keymap import DIRECTIONS, bindings
 from zteleop.inputs.keys import KeyParser
-from zteleop.inputs.levers import Levers, Steps
+from zteleop.inputs.levers import Axis, Levers, Steps
 from zteleop.messages import Vehicle
 
 if TYPE_CHECKING:

@@ -1,6 +1,6 @@
 """What an operator sees, as lines for a terminal of any size."""
 
-from zteleop.inputs.cells import Span, fit, pad, paint
+from zteleop.inputs.cells import Span, fit, pad, paint, width
 from zteleop.inputs.dashboard import Dashboard, Line, brief, footer, readings, steering_angle
 from zteleop.inputs.top_view import draw
 
@@ -40,7 +40,8 @@ def with_picture(
 ) -> list[list[Span]]:
     """Return the lines with the robot from above beside or below them, where there is room."""
     beside = columns >= BESIDE
-    top = (5 if d.drive == "step" else 3) if beside else used + 1
+    wide = [index for index, spans in enumerate(middle) if sum(width(span.text) for span in spans) > LEFT]
+    top = max(3, *(index + 1 for index in wide), 0) if beside else used + 1
     rows = len(middle) - top - (1 if beside else 0)
     across = columns - LEFT - 2 if beside else columns
     if rows < LEAST_ROWS or across < LEAST_COLUMNS:

@@ -1,9 +1,9 @@
 """The robot from above: where it is, where it was, and where its wheels point.
 
-On the screen x is up and y is left (REP-103). The robot is drawn larger than life, so that its wheels are seen.
+On the screen x is up and y is left (REP-103). The robot is drawn larger than life: its wheels are to be seen.
 """
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from math import atan2, cos, hypot, isfinite, sin
 
@@ -17,14 +17,13 @@ JUMP = 0.5
 FARTHEST = 1e6
 """m; beyond this a pose is nonsense."""
 BRAILLE = ((0x01, 0x08), (0x02, 0x10), (0x04, 0x20), (0x40, 0x80))
-LENGTH = 0.4
-"""Of the robot, as a part of the shorter side; its other measures are fractions of its length."""
+LENGTH, ALONE = 0.4, 0.75
+"""Of the robot, on a map or by itself, as a part of the shorter side; all below are fractions of it."""
 CAR = ((-0.5, 0.14), (0.25, 0.14), (0.5, 0.04))
-TANK = ((-0.4, 0.22), (0.25, 0.22), (0.5, 0.0))
+TANK = ((-0.4, 0.2), (0.25, 0.2), (0.5, 0.02))
 """Half of the body, which is as wide on the other side: (ahead, aside) from tail to nose."""
-NOSE = 0.25
 AXLES = (-0.33, 0.3)
-TRACK, TANK_TRACK = 0.32, 0.36
+TRACK = 0.33
 WHEEL = (0.16, 0.055)
 """Half the length and half the breadth."""
 ROOM = (0.6, 0.48)
@@ -54,15 +53,22 @@ class Canvas:
             part = step / steps
             self.dot(x + part * right, y + part * down, mark or slope(right, down))
 
-    def fill(self, middle: Dot, radius: float, mark: Callable[[float, float], str | None]) -> None:
-        """Set the dots whose offset from the middle has a mark; " " clears them, None leaves them."""
-        for y in range(int(middle[1] - radius), int(middle[1] + radius) + 2):
-            for x in range(int(middle[0] - radius), int(middle[0] + radius) + 2):
-                found = mark(x + 0.5 - middle[0], y + 0.5 - middle[1])
-                if found == " ":
-                    self._clear(x, y)
-                elif found:
-                    self.dot(x, y, found)
+    def polygon(self, corners: Sequence[Dot], mark: str) -> None:
+        """Set the dots inside a convex outline; the mark " " clears them."""
+        heights = [y for _, y in corners]
+        edges = [*pairwise(corners), (corners[-1], corners[0])]
+        for row in range(round(min(heights)), round(max(heights))):
+            y = row + 0.5
+            across = [
+                x0 + (x1 - x0) * (y - y0) / (y1 - y0)
+                for (x0, y0), (x1, y1) in edges
+                if (y0 <= y) != (y1 <= y)
+            ]
+            for x in range(round(min(across)), round(max(across))) if across else ():
+                if mark == " ":
+                    self._clear(x, row)
+                else:
+                    self.dot(x, row, mark)
 
     def _clear(self, x: int, y: int) -> None:
         column, row = x // 2, y // 4
@@ -90,18 +96,21 @@ def draw(
     canvas = Canvas(columns, rows, unicode)
     across, down = 2 * columns, 4 * rows
     scale = min(across, down) / SPAN
-    x, y, heading = pose(odom) or (0.0, 0.0, 0.0)
+    known = pose(odom)
+    x, y, heading = known or (0.0, 0.0, 0.0)
     middle_x, middle_y = window(x, down / scale), window(y, across / scale)
 
     def place(x: float, y: float) -> Dot:
         return across / 2 - (y - middle_y) * scale, down / 2 - (x - middle_x) * scale
 
     here = place(x, y)
-    if pose(odom):
+    if known:
         draw_trail(canvas, [place(*point) for point in trail], JUMP * scale)
-    draw_robot(canvas, here, heading, steering_angle, vehicle, min(across, down) * LENGTH)
+    draw_robot(
+        canvas, here, heading, steering_angle, vehicle, min(across, down) * (LENGTH if known else ALONE)
+    )
     picture = canvas.lines()
-    return [*picture[:-1], scale_bar(scale, columns, unicode, picture[-1])] if pose(odom) else picture
+    return [*picture[:-1], scale_bar(scale, columns, unicode, picture[-1])] if known else picture
 
 
 def pose(odom: Odometry | None) -> tuple[float, float, float] | None:
@@ -115,7 +124,7 @@ def pose(odom: Odometry | None) -> tuple[float, float, float] | None:
 
 
 def window(position: float, span: float) -> float:
-    """Return the middle of the view: it moves on by half a picture at a time, so that the robot is seen to move."""
+    """Return the middle of the view: it jumps by half a picture, so that the robot is seen to move."""
     return round(position / (span / 2)) * (span / 2)
 
 
@@ -131,44 +140,37 @@ def draw_robot(
     """Draw the body, and four wheels of which the front ones steer, or two."""
     tank = vehicle is not None and vehicle.kind == "differential"
     middle = (round(here[0]), round(here[1]))
-    ahead, left = (-sin(heading), -cos(heading)), (-cos(heading), sin(heading))
 
-    def mark(right: float, down: float) -> str | None:
-        u = (right * ahead[0] + down * ahead[1]) / length
-        v = (right * left[0] + down * left[1]) / length
-        return part(u, v, steering, tank, length)
+    def place(ahead: float, left: float) -> Dot:
+        return (
+            middle[0] - length * (ahead * sin(heading) + left * cos(heading)),
+            middle[1] - length * (ahead * cos(heading) - left * sin(heading)),
+        )
 
-    def rolls(angle: float) -> str:
-        return slope(-sin(heading + angle), -cos(heading + angle))
+    def box(at: Dot, half: Dot, angle: float, mark: str) -> None:
+        c, s = cos(angle), sin(angle)
+        turned = [(u * c - v * s, u * s + v * c) for u, v in pairs(half)]
+        canvas.polygon([place(at[0] + u, at[1] + v) for u, v in turned], mark)
 
-    marks = {"front": rolls(steering), "rear": rolls(0.0), "body": "#", "nose": "o", "axle": "-", "room": " "}
-    for kinds in (("room",), ("axle",), ("body", "nose"), ("rear",), ("front",)):
-        canvas.fill(middle, length, lambda x, y: marks[found] if (found := mark(x, y)) in kinds else None)
+    def wheel(axle: float, left: float, angle: float) -> None:
+        half = (WHEEL[0], max(WHEEL[1], 0.8 / length))
+        box((axle, left), half, angle, slope(-sin(heading + angle), -cos(heading + angle)))
 
-
-def part(u: float, v: float, steering: float, tank: bool, dots: float) -> str | None:
-    """Return which part of the robot is at u ahead and v to the left of its middle."""
+    box((0.0, 0.0), ROOM, 0.0, " ")
+    outline = TANK if tank else CAR
+    for axle in () if tank else AXLES:
+        canvas.line(place(axle, TRACK), place(axle, -TRACK))
+    canvas.polygon([place(*p) for p in [*outline, *((u, -v) for u, v in reversed(outline))]], "#")
+    canvas.polygon([place(*p) for p in [*outline[-2:], *((u, -v) for u, v in reversed(outline[-2:]))]], "o")
     for axle in (0.0,) if tank else AXLES:
-        track = TANK_TRACK if tank else TRACK
-        angle = steering if axle > 0 else 0.0
-        ahead, aside = u - axle, abs(v) - track if v > 0 else -(abs(v) - track)
-        along = ahead * cos(angle) + aside * sin(angle)
-        across = aside * cos(angle) - ahead * sin(angle)
-        if abs(along) <= WHEEL[0] and abs(across) <= max(WHEEL[1], 0.8 / dots):
-            return "front" if axle > 0 else "rear"
-    if abs(v) <= breadth(u, TANK if tank else CAR):
-        return "nose" if u > NOSE else "body"
-    if not tank and abs(v) < TRACK and any(abs(u - axle) <= 0.5 / dots for axle in AXLES):
-        return "axle"
-    return "room" if abs(u) < ROOM[0] and abs(v) < ROOM[1] else None
+        for left in (TRACK, -TRACK):
+            wheel(axle, left, steering if axle > 0 else 0.0)
 
 
-def breadth(u: float, outline: Sequence[Dot]) -> float:
-    """Return half the breadth of a body at u ahead of its middle; below 0 there is no body."""
-    for (tail, wide), (nose, narrow) in pairwise(outline):
-        if tail <= u <= nose:
-            return wide + (narrow - wide) * (u - tail) / (nose - tail)
-    return -1.0
+def pairs(half: Dot) -> tuple[Dot, Dot, Dot, Dot]:
+    """Return the corners of a box, in order."""
+    u, v = half
+    return (u, v), (u, -v), (-u, -v), (-u, v)
 
 
 def slope(right: float, down: float) -> str:

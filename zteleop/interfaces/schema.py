@@ -15,4 +15,7 @@ def schema(kind: type, title: str) -> dict[str, Any]:
 
 def text(kind: type, title: str) -> str:
     """Return the schema as it is kept in a file."""
-    return msgspec.json.format(msgspec.json.encode(schema(kind, title), order="sorted"), indent=2).decode() + "\n"
+    return (
+        msgspec.json.format(msgspec.json.encode(schema(kind, title), order="sorted"), indent=2).decode()
+        + "\n"
+    )

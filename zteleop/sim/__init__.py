@@ -1,6 +1,6 @@
 """What the pulses move: pure physics, one file per kind of vehicle, one line below."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 from zteleop.control.mixer import Mixer
 from zteleop.control.servo import Servo
@@ -9,7 +9,7 @@ from zteleop.sim.body import Body
 from zteleop.sim.car import Car
 from zteleop.sim.tank import Tank
 
-VEHICLES = {"ackermann": Car, "differential": Tank}
+VEHICLES: dict[str, Callable[..., Body]] = {"ackermann": Car, "differential": Tank}
 
 
 def make_vehicle(mixer: Mixer, servos: Mapping[str, Servo]) -> Body:
@@ -20,5 +20,4 @@ def make_vehicle(mixer: Mixer, servos: Mapping[str, Servo]) -> Body:
     if missing := sorted(mixer.wheels - servos.keys()):
         found = ", ".join(sorted(servos)) or "none"
         raise ConfigError(f"a vehicle of this kind needs servos for {', '.join(missing)}; found {found}")
-    vehicle: type[Body] = VEHICLES[str(mixer.__struct_config__.tag)]
-    return vehicle(mixer, servos)
+    return VEHICLES[str(mixer.__struct_config__.tag)](mixer, servos)

@@ -1,5 +1,6 @@
 """What every vehicle is: a body on a plane that its wheels move, seen by itself as odometry (REP-103)."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from math import ceil, cos, remainder, sin, tau
 
@@ -23,7 +24,7 @@ LONGEST_STEP = 1.0
 """s; whoever calls later than that has lost the rest."""
 
 
-class Body:
+class Body(ABC):
     """Pose of base_link in the odom frame (m, rad) and its velocity (m/s, rad/s)."""
 
     def __init__(self) -> None:
@@ -32,9 +33,9 @@ class Body:
         self.distance = 0.0
         """m rolled since the start, back and forth."""
 
+    @abstractmethod
     def move(self, pulse_us: Pulses, dt: float) -> None:
         """Set speed and yaw_rate to what they are after `dt` of these pulses."""
-        raise NotImplementedError
 
     def step(self, pulse_us: Pulses, dt: float) -> None:
         """Drive for `dt` seconds on these pulses; not at all unless dt > 0, and for a second at most."""

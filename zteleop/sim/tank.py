@@ -8,16 +8,12 @@ from zteleop.sim.body import Body, Pulses
 from zteleop.sim.esc import EscSettings
 
 
-class TankSettings(EscSettings, frozen=True, forbid_unknown_fields=True):
-    pass
-
-
 class Tank(Body):
     def __init__(
-        self, mixer: Differential, servos: Mapping[str, Servo], settings: TankSettings | None = None
+        self, mixer: Differential, servos: Mapping[str, Servo], settings: EscSettings | None = None
     ) -> None:
         super().__init__()
-        self._mixer, self._settings = mixer, settings or TankSettings()
+        self._mixer, self._settings = mixer, settings or EscSettings()
         self._servos = servos["left"], servos["right"]
         self.wheel_speeds = (0.0, 0.0)
         """m/s, left and right."""

@@ -1,0 +1,59 @@
+import errno
+
+import pytest
+
+from zteleop.drivers.port import Port
+from zteleop.drivers.registers import MODE1, MODE2
+from zteleop.errors import DeviceError
+
+
+@pytest.fixture
+def port(wire):
+    return Port(wire, 0x40)
+
+
+def test_registers_are_set_and_got(port):
+    port.set(MODE1, 0x30)
+    assert port.get(MODE1) == 0x30
+    assert port.get_block(MODE1, 3) == bytes([0x30, 0x04, 0xE2])
+
+
+def test_only_an_os_error_is_put_in_words(port):
+    with pytest.raises(DeviceError, match=r"^0x40 on /dev/i2c-1: "), port.in_words():
+        raise OSError(errno.EIO, "broken")
+    with pytest.raises(DeviceError, match="^already$"), port.in_words():
+        raise DeviceError("already")
+    with pytest.raises(ZeroDivisionError), port.in_words():
+        raise ZeroDivisionError
+
+
+def test_a_missing_chip_is_searched_for_only_when_asked(wire, port):
+    wire.address = 0x41
+    with (
+        pytest.raises(DeviceError, match=r"at 0x40 on /dev/i2c-1; found 0x41 \(i2cdetect"),
+        port.in_words(True),
+    ):
+        port.get(MODE1)
+    with pytest.raises(DeviceError, match="check power"), port.in_words():
+        port.get(MODE1)
+
+
+def test_verify_masks_restart_and_names_what_differs(wire, port):
+    wire.chip.memory[MODE1] = 0xA0
+    port.verify({MODE1: 0x20, MODE2: 0x04})
+    with pytest.raises(DeviceError, match=r"\(MODE1 reads 0x20, not 0x30, MODE2 reads 0x04, not 0x14\)"):
+        port.verify({MODE1: 0x30, MODE2: 0x14})
+
+
+@pytest.mark.parametrize(("channels", "transfers"), [(8, 1), (9, 1)])
+def test_a_long_run_is_still_one_transaction(wire, port, channels, transfers):
+    port.set(MODE1, 0x20)
+    wire.log.clear()
+    port.write([(6, bytes([0, 0, 7, 0] * channels))])
+    assert len(wire.log) == transfers
+    assert wire.chip.memory[6 + 4 * channels - 2] == 7
+
+
+def test_nothing_to_write_is_no_transfer(wire, port):
+    port.write([])
+    assert wire.log == []

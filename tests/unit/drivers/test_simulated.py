@@ -1,0 +1,117 @@
+import os
+import stat
+
+import pytest
+
+from zteleop.drivers import open_driver
+from zteleop.drivers.chip import POWER_UP
+from zteleop.drivers.pca9685 import Pca9685, Pca9685Settings, read_pulse_us
+from zteleop.drivers.simulated import Registers, SimulatedI2C, default_path, open_chip, open_registers
+from zteleop.errors import DeviceError
+
+
+@pytest.fixture
+def path(tmp_path):
+    return str(tmp_path / "runtime" / "zteleop" / "car.pca9685")
+
+
+def started(path, neutral_us):
+    driver = Pca9685(SimulatedI2C(open_chip(path), path), Pca9685Settings(), lambda _: None)
+    driver.start(neutral_us)
+    return driver
+
+
+def test_a_chip_that_was_not_there_has_just_got_power(path, tmp_path):
+    with open_registers(path) as registers:
+        assert registers.snapshot() == POWER_UP
+    assert (tmp_path / "runtime" / "zteleop" / "car.pca9685").read_bytes() == POWER_UP
+    assert stat.S_IMODE(os.stat(os.path.dirname(path)).st_mode) == 0o700
+
+
+@pytest.mark.parametrize("content", [b"", b"not a chip", bytes(300)])
+def test_a_file_of_another_size_is_no_chip_and_gets_power(tmp_path, content):
+    (tmp_path / "chip").write_bytes(content)
+    open_chip(str(tmp_path / "chip"))
+    assert (tmp_path / "chip").read_bytes() == POWER_UP
+
+
+def test_byte_n_of_the_file_is_register_n(path):
+    started(path, {0: 1500}).close()
+    with open(path, "rb") as file:
+        registers = file.read()
+    assert (registers[0], registers[1], registers[0xFE]) == (0x20, 0x04, 101)
+    assert registers[6:10] == bytes([0, 0, 0x70, 1])
+
+
+def test_the_chip_outlives_its_driver_and_keeps_the_last_pulse(path):
+    driver = started(path, {0: 1500})
+    driver.write({0: 1800})
+    driver.close()
+    with open_registers(path) as registers:
+        assert read_pulse_us(registers.snapshot(), 0) == pytest.approx(1800, abs=2.04)
+
+
+def test_a_watcher_sees_what_others_write(path):
+    with open_registers(path) as registers:
+        driver = started(path, {0: 1500})
+        assert read_pulse_us(registers.snapshot(), 0) == pytest.approx(1500, abs=2.04)
+        driver.write({0: 1200})
+        assert read_pulse_us(registers.snapshot(), 0) == pytest.approx(1200, abs=2.04)
+        driver.close()
+
+
+def test_two_drivers_see_one_truth(path):
+    actuator, watchdog = started(path, {0: 1500}), started(path, {0: 1500})
+    actuator.write({0: 2000})
+    assert watchdog.read([0])[0] == pytest.approx(2000, abs=2.04)
+    watchdog.write({0: 1500})
+    assert actuator.read([0])[0] == pytest.approx(1500, abs=2.04)
+
+
+def test_a_watcher_cannot_write(path):
+    with open_registers(path) as registers, pytest.raises(TypeError):
+        registers._memory[0] = 1
+
+
+def test_a_snapshot_waits_until_two_looks_agree():
+    looks = [b"half", b"whole", b"whole", b"later"]
+
+    class Memory:
+        def __getitem__(self, _):
+            return looks.pop(0)
+
+    assert Registers(Memory()).snapshot() == b"whole"
+
+
+def test_a_second_actuator_is_refused_with_the_process_of_the_first(path):
+    first = open_driver("simulated", {"path": path})
+    words = f"{path} is driven by process {os.getpid()} already; stop it first"
+    with pytest.raises(DeviceError, match=words):
+        open_driver("simulated", {"path": path})
+    open_driver("simulated", {"path": path}, exclusive=False).close()
+    first.close()
+    open_driver("simulated", {"path": path}).close()
+
+
+def test_nobody_answers_at_another_address(path):
+    i2c = SimulatedI2C(open_chip(path), path, 0x41)
+    with pytest.raises(OSError, match="nobody answers"):
+        i2c.write_byte_data(0x40, 0, 0x20)
+    with pytest.raises(OSError, match="nobody answers"):
+        i2c.read_byte_data(0x40, 0)
+    assert open_registers(path).snapshot() == POWER_UP
+
+
+def test_a_file_that_cannot_be_opened_names_the_setting(tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(
+        DeviceError, match=r"cannot open the simulated chip .*path under \[drivers\.simulated\]"
+    ):
+        open_chip(str(tmp_path / "file" / "chip"))
+
+
+def test_the_default_is_in_the_users_runtime_folder(monkeypatch):
+    monkeypatch.setenv("XDG_RUNTIME_DIR", "/run/user/7")
+    assert default_path("archangel") == "/run/user/7/zteleop/archangel.pca9685"
+    monkeypatch.delenv("XDG_RUNTIME_DIR")
+    assert default_path() == f"/tmp/zteleop-{os.getuid()}/zteleop/robot.pca9685"

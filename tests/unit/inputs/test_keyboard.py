@@ -1,0 +1,287 @@
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from zteleop.control.stick import Speeds, Stick, to_pwm
+from zteleop.errors import ConfigError
+from zteleop.inputs.held_keys import FIRST
+from zteleop.inputs.keyboard import Keyboard
+from zteleop.messages import Channel, Vehicle
+
+UP, DOWN, RIGHT, LEFT = b"\x1b[A", b"\x1b[B", b"\x1b[C", b"\x1b[D"
+
+
+class Typed:
+    """A terminal of which a test types the keys."""
+
+    def __init__(self) -> None:
+        self.data = b""
+        self.gone = False
+        self.resumed = 0
+        self.calls: list[str] = []
+
+    def read(self) -> bytes:
+        if self.gone:
+            raise EOFError
+        data, self.data = self.data, b""
+        return data
+
+    def fileno(self) -> int:
+        return 7
+
+    def redraw(self) -> None:
+        self.calls.append("redraw")
+
+    def suspend(self) -> None:
+        self.calls.append("suspend")
+        self.resumed += 1
+
+    def __enter__(self) -> "Typed":
+        self.calls.append("enter")
+        return self
+
+    def __exit__(self, *exc: object) -> None:
+        self.calls.append("exit")
+
+
+class Bench:
+    def __init__(self, drive: str, vehicle: Vehicle | None, **settings: object) -> None:
+        self.terminal = Typed()
+        self.vehicle = vehicle
+        self.keyboard = Keyboard(drive, terminal=self.terminal, **settings)
+        if vehicle:
+            self.keyboard.fit(vehicle)
+        self.now = 100.0
+
+    def type(self, data: bytes, after: float = 0.0) -> bool:
+        self.now += after
+        self.terminal.data = data
+        return self.keyboard.read(self.now)
+
+    def stick(self, after: float = 0.0) -> Stick:
+        self.now += after
+        return self.keyboard.stick(self.now)
+
+    def ticks(self) -> tuple[int, int] | None:
+        pwm = to_pwm(self.stick(), self.vehicle)
+        return pwm and (pwm.steering_ticks, pwm.throttle_ticks)
+
+
+@pytest.fixture
+def step(car):
+    return Bench("step", car)
+
+
+@pytest.fixture
+def hold(car):
+    return Bench("hold", car)
+
+
+@pytest.mark.parametrize("keys", [UP + UP + RIGHT, b"wwd", b"WwD"])
+def test_arrows_and_letters_move_the_levers(step, keys):
+    assert step.type(keys)
+    assert step.ticks() == (360, 372)
+
+
+def test_nothing_typed_is_no_act(step):
+    assert not step.type(b"")
+    assert step.stick() == Stick()
+
+
+def test_space_stops_the_throttle_and_keeps_the_steering(step):
+    step.type(UP + LEFT + b" ")
+    assert step.ticks() == (390, 370)
+
+
+def test_x_brings_both_to_neutral(step):
+    step.type(UP + LEFT + b"x")
+    assert step.ticks() is None
+
+
+@pytest.mark.parametrize("key", [b"q", b"\x03"])
+def test_quitting_is_neutral_and_hears_no_more_keys(step, key):
+    step.type(UP + key + UP)
+    assert step.keyboard.finished
+    assert step.stick() == Stick()
+
+
+@pytest.mark.parametrize("key", [b"z", "é".encode(), b"\x1bw", b"\x1b[1;5A", b"\x04"])
+def test_an_unknown_key_does_nothing_but_shows_that_somebody_is_there(step, key):
+    step.type(UP)
+    before = step.ticks()
+    assert step.type(key, after=4.0)
+    step.now += 4.0
+    assert step.ticks() == before
+    assert not step.keyboard.finished
+
+
+def test_the_end_of_the_terminal_is_the_end(step):
+    step.type(UP)
+    step.terminal.gone = True
+    assert not step.type(b"")
+    assert step.keyboard.finished
+    assert step.stick() == Stick()
+
+
+def test_five_seconds_without_a_key_are_neutral_for_good(step):
+    step.type(UP + LEFT)
+    assert step.stick(after=4.9).deadman
+    assert step.keyboard.idle_left(step.now) == pytest.approx(0.1)
+    assert step.stick(after=0.1) == Stick()
+    assert step.keyboard.idle_left(step.now) is None
+    step.type(b"z")
+    assert step.stick() == Stick()
+
+
+def test_a_key_held_for_long_keeps_the_idle_timer_away(step):
+    for _ in range(40):
+        step.type(UP, after=0.2)
+        assert step.stick().deadman
+
+
+def test_the_robot_may_shorten_the_idle_limit_and_never_lengthen_it(car):
+    car.operator_silence = 2.0
+    assert Bench("step", car).keyboard.idle_limit == 2.0
+    car.operator_silence = 60.0
+    assert Bench("step", car).keyboard.idle_limit == 5.0
+
+
+@pytest.mark.parametrize("drive", ["step", "hold"])
+def test_a_key_held_through_a_reset_must_be_let_go_first(car, drive):
+    bench = Bench(drive, car)
+    bench.type(UP)
+    bench.keyboard.reset(bench.now + 0.1)
+    assert bench.stick() == Stick()
+    for _ in range(20):
+        bench.type(UP, after=0.1)
+        assert bench.stick() == Stick()
+    bench.type(UP, after=FIRST)
+    assert bench.stick().forward > 0
+
+
+def test_held_keys_drive_while_held(hold):
+    hold.type(UP + LEFT)
+    assert hold.stick(after=0.5) == Stick(1.0, 1.0, True)
+    assert hold.stick(after=0.2) == Stick()
+
+
+@pytest.mark.parametrize("key", [b" ", b"x"])
+def test_space_lets_held_keys_go(hold, key):
+    hold.type(UP + key)
+    assert hold.stick() == Stick()
+
+
+def test_speed_keys_change_speeds_by_a_tenth_and_move_nothing(tank):
+    bench = Bench("hold", tank, speeds=Speeds(0.2, 1.0))
+    bench.type(b"uk")
+    assert bench.keyboard.speeds.forward == pytest.approx(0.22)
+    assert bench.keyboard.speeds.turn == pytest.approx(0.9)
+    bench.type(b"ji")
+    assert bench.keyboard.speeds.forward == pytest.approx(0.198)
+    assert bench.keyboard.speeds.turn == pytest.approx(0.99)
+    assert bench.stick() == Stick()
+
+
+def test_speeds_stay_between_a_crawl_and_what_the_robot_can(tank):
+    bench = Bench("hold", tank)
+    assert bench.keyboard.speeds == Speeds(0.3, 1.0)
+    bench.type(b"u" * 50 + b"i" * 50)
+    assert bench.keyboard.speeds == Speeds(0.3, 1.5)
+    bench.type(b"j" * 500 + b"k" * 500)
+    assert bench.keyboard.speeds.forward > 0
+    bench.type(b"u" * 50)
+    assert bench.keyboard.speeds.forward == 0.3
+
+
+def test_ctrl_z_is_neutral_first_and_stops_when_told(step):
+    step.type(UP + b"\x1a" + UP)
+    assert step.keyboard.suspending
+    assert step.stick() == Stick()
+    step.type(UP, after=5.0)
+    assert step.stick() == Stick()
+    step.keyboard.suspend(step.now)
+    assert step.terminal.calls == ["suspend"]
+    assert not step.keyboard.suspending
+    step.type(UP, after=FIRST)
+    assert step.stick().deadman
+
+
+def test_a_stop_from_outside_is_neutral(step):
+    step.type(UP)
+    step.terminal.resumed += 1
+    step.type(b"")
+    assert step.stick() == Stick()
+
+
+def test_ctrl_l_draws_anew(step):
+    step.type(b"\x0c")
+    assert step.terminal.calls == ["redraw"]
+
+
+def test_a_lone_escape_is_an_act_and_nothing_else(step):
+    assert not step.type(b"\x1b")
+    assert step.type(b"", after=0.1)
+    assert not step.keyboard.finished
+
+
+def test_a_paste_does_not_drive(step):
+    assert not step.type(b"\x1b[200~wwwaaaq\x1b[201~")
+    assert step.stick() == Stick()
+
+
+def test_keys_can_be_bound_without_touching_code(car):
+    bench = Bench("step", car, keys={"8": "forward", "Q": "neutral"})
+    bench.type(b"88")
+    assert bench.ticks() == (375, 372)
+    bench.type(b"Q")
+    assert bench.ticks() is None
+    assert not bench.keyboard.finished
+    with pytest.raises(ConfigError):
+        Bench("step", car, keys={"8": "fly"})
+
+
+def test_without_a_robot_it_stays_usable():
+    bench = Bench("step", None)
+    bench.type(UP + LEFT + b" xuk")
+    assert bench.stick() == Stick()
+
+
+def test_another_calibration_is_neutral_and_needs_a_fresh_press(step, car):
+    step.type(UP)
+    car.channels[1] = Channel("throttle", 0, 1.0, 2.0, 3.0, 340, 370, 400)
+    step.keyboard.fit(car)
+    step.type(UP, after=0.1)
+    assert step.stick() == Stick()
+
+
+def test_the_terminal_is_entered_and_left(step):
+    with step.keyboard as keyboard:
+        step.type(UP)
+        assert keyboard.fileno() == 7
+    assert step.terminal.calls == ["enter", "exit"]
+    assert step.stick() == Stick()
+
+
+CHUNKS = st.one_of(
+    st.sampled_from([UP, DOWN, LEFT, RIGHT, b"w", b" ", b"x", b"u", b"i"]), st.binary(max_size=3)
+)
+
+
+@settings(deadline=None)
+@given(st.sampled_from(["step", "hold"]), st.lists(st.tuples(CHUNKS, st.floats(0, 6))), st.integers(-1, 60))
+def test_any_keys_give_a_stick_in_range(drive, chunks, reset_at):
+    channels = [
+        Channel(name, i, 1.0, 2.0, 3.0, 290, 375, 460) for i, name in enumerate(("steering", "throttle"))
+    ]
+    bench = Bench(drive, Vehicle("ackermann", channels, 1.0, 2.0, 0.25, 0.4, 5.0))
+    for index, (data, after) in enumerate(chunks):
+        bench.type(data, after)
+        stick = bench.stick()
+        assert -1 <= stick.forward <= 1
+        assert -1 <= stick.turn <= 1
+        assert bench.ticks() is None or all(290 <= ticks <= 460 for ticks in bench.ticks())
+        if index == reset_at:
+            bench.keyboard.reset(bench.now)
+            assert bench.stick() == Stick()
+    bench.now += 5.0
+    assert bench.stick() == Stick()

@@ -1,0 +1,1 @@
+"""Whose programs run: the shapes of other libraries, on top of the bus."""
