@@ -15,17 +15,17 @@ WIDE = 62
 TABLE = 44
 """Columns that a table of two columns takes."""
 THROTTLE_CELLS = 8
-"""Of each side of the throttle's bar, whose many steps share them; steering has a cell a step where it fits."""
+"""Of each side of the throttle's bar, whose many steps share them; a step of steering has its own."""
 OUTPUT = "Currently outputting:[Steering PWM, Throttle PWM] = "
 COLORS = {"driving": "green", "stopped": "red", "fault": "red"}
 WORDS = {"steering": ("left", "right", "straight"), "throttle": ("forward", "reverse", "neutral")}
 KEYS = {
     "step": (("arrows/wasd", "drive"), ("space", "stop"), ("x", "neutral"), ("q", "quit")),
     "hold": (
-        ("hold arrows/wasd", "drive"),
+        ("arrows/wasd", "drive while held"),
         ("space", "let go"),
         ("u/j", "speed"),
-        ("i/k", "turn"),
+        ("i/k", "turning"),
         ("q", "quit"),
     ),
 }

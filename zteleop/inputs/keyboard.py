@@ -89,6 +89,8 @@ class Keyboard:
         if self.terminal.resumed != self._resumed:
             self._resumed = self.terminal.resumed
             self.reset(now)
+        if self._idle(now):  # a loop that came late must not step on from where it was
+            self.neutral()
         for key in keys:
             self._press(key)
         if keys:
@@ -97,7 +99,7 @@ class Keyboard:
 
     def stick(self, now: float) -> Stick:
         """Return where the stick is; neutral after `idle_limit` without a key."""
-        if now - self._acted >= self.idle_limit:
+        if self._idle(now):
             self.neutral()
         return self._levers.stick() if self.drive == "step" else self._held.stick(now)
 
@@ -117,6 +119,9 @@ class Keyboard:
         self._parser = KeyParser()
         self.suspending = False
         self.reset(now)
+
+    def _idle(self, now: float) -> bool:
+        return now - self._acted >= self.idle_limit
 
     def _press(self, key: str) -> None:
         action = self._bindings.get(key) or self._bindings.get(key.lower(), "")

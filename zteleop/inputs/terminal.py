@@ -46,7 +46,12 @@ class Terminal:
 
     def __enter__(self) -> Self:
         # a file of its own: O_NONBLOCK on standard input would be the shell's as well
-        self._fd = os.open(self._name, os.O_RDWR | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC)
+        try:
+            self._fd = os.open(self._name, os.O_RDWR | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC)
+        except OSError as error:
+            raise DeviceError(
+                f"cannot open the terminal {self._name}: {error.strerror}; open a new one"
+            ) from None
         try:
             self._saved = termios.tcgetattr(self._fd)
             with suppress(ValueError):  # outside the main thread nobody may handle signals

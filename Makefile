@@ -1,0 +1,45 @@
+# Two commands: `make demo` and `make test`. Everything else is detail.
+
+PYTHON ?= python3
+BIN := .venv/bin
+
+.PHONY: demo test lint format schemas bench clean
+
+demo: .venv/installed
+	@$(BIN)/zteleop demo
+
+test: .venv/installed-dev
+	@$(BIN)/pytest
+
+lint: .venv/installed-dev
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/mypy
+
+format: .venv/installed-dev
+	$(BIN)/ruff check --fix
+	$(BIN)/ruff format
+
+schemas: .venv/installed
+	$(BIN)/zteleop schema
+
+bench: .venv/installed-dev
+	@for script in benchmarks/*.py; do $(BIN)/python $$script || exit 1; done
+
+clean:
+	rm -rf .venv
+
+.venv/installed: pyproject.toml
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+		{ echo "zteleop needs Python 3.11 or newer; found $$($(PYTHON) -V). Say: make PYTHON=python3.12 demo"; exit 1; }
+	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || \
+		{ echo "Python's venv module is missing; say: sudo apt install python3-venv"; exit 1; }
+	@echo "installing into .venv ..."
+	@test -x $(BIN)/python || $(PYTHON) -m venv .venv
+	@$(BIN)/pip install --quiet --disable-pip-version-check --editable .
+	@touch $@
+
+.venv/installed-dev: .venv/installed
+	@echo "installing what the tests need ..."
+	@$(BIN)/pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	@touch $@

@@ -1,0 +1,43 @@
+"""Figures from samples: medians, p99 and tables; and the --quick that every script takes."""
+
+import argparse
+import statistics
+from collections.abc import Sequence
+
+TABLE_GAP = "  "
+
+
+def is_quick(description: str) -> bool:
+    """Parse the command line of a script; True for a run of a few seconds."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("--quick", action="store_true", help="a run of a few seconds: rough figures")
+    return bool(parser.parse_args().quick)
+
+
+def p99(samples: Sequence[float]) -> float:
+    """Return what 99 of 100 samples stay below; the largest where there are few."""
+    return sorted(samples)[min(len(samples) - 1, int(0.99 * len(samples)))]
+
+
+def median(samples: Sequence[float]) -> float:
+    return statistics.median(samples)
+
+
+def verdict(found: float, most: float, unit: str) -> str:
+    """Return a target, and whether it is met."""
+    return f"<= {most:g} {unit}: {'met' if found <= most else 'MISSED'}"
+
+
+def print_table(title: str, head: Sequence[str], rows: Sequence[Sequence[object]]) -> None:
+    """Print rows under a head; numbers with three digits that count."""
+    cells = [list(head), *([_text(value) for value in row] for row in rows)]
+    widths = [max(len(row[column]) for row in cells) for column in range(len(head))]
+    print(f"\n{title}")
+    for row in cells:
+        print(TABLE_GAP.join(text.ljust(width) for text, width in zip(row, widths, strict=True)).rstrip())
+
+
+def _text(value: object) -> str:
+    if not isinstance(value, float):
+        return str(value)
+    return f"{value:.0f}" if abs(value) >= 100 else f"{value:.3g}"

@@ -1,0 +1,141 @@
+"""A simulated robot and its operator, started as users start them: processes, a pseudo-terminal, a chip."""
+
+import fcntl
+import os
+import pty
+import random
+import select
+import shutil
+import socket
+import struct
+import subprocess
+import sys
+import tempfile
+import termios
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, ExitStack, contextmanager
+from pathlib import Path
+from typing import Self
+
+from zteleop.drivers.registers import LED0_ON_L
+from zteleop.drivers.simulated import default_path, open_registers
+
+ZTELEOP = str(Path(sys.executable).with_name("zteleop"))
+ROBOT = "bench"
+LEFT, RIGHT = b"\x1b[D", b"\x1b[C"
+LOOK_EVERY = 20e-6
+LONGEST = 0.5
+
+
+def free_endpoint() -> str:
+    """Return an endpoint on this machine that nobody listens at."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return f"tcp/127.0.0.1:{probe.getsockname()[1]}"
+
+
+@contextmanager
+def running(command: Sequence[str], **options: object) -> Iterator["subprocess.Popen[str]"]:
+    """Run a process for as long as the `with` lasts, however it ends."""
+    options = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "text": True} | options
+    process: subprocess.Popen[str] = subprocess.Popen(command, **options)  # type: ignore[call-overload]
+    try:
+        yield process
+    finally:
+        process.terminate()
+        try:
+            process.wait(3)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+
+
+class Robot(AbstractContextManager["Robot"]):
+    """An actuator with a chip in a folder of its own, so that no other robot on this machine takes part."""
+
+    def __init__(self) -> None:
+        self.folder = tempfile.mkdtemp(prefix="zteleop-bench-")
+        self.endpoint = free_endpoint()
+        self.environment = os.environ | {
+            **{name: self.folder for name in ("XDG_RUNTIME_DIR", "XDG_CONFIG_HOME", "XDG_STATE_HOME")},
+            **{"TERM": "xterm-256color", "LC_ALL": "C.UTF-8"},
+        }
+        self._stack = ExitStack()
+
+    def __enter__(self) -> Self:
+        self._stack.callback(shutil.rmtree, self.folder, ignore_errors=True)
+        here, os.environ["XDG_RUNTIME_DIR"] = os.environ.get("XDG_RUNTIME_DIR"), self.folder
+        self.registers = self._stack.enter_context(open_registers(default_path(ROBOT)))
+        if here is None:
+            del os.environ["XDG_RUNTIME_DIR"]
+        else:
+            os.environ["XDG_RUNTIME_DIR"] = here
+        self.actuator = self.start("actuator", "--listen", self.endpoint)
+        self._await_actuator()
+        return self
+
+    def __exit__(self, *exc: object) -> None:
+        self._stack.close()
+
+    def start(self, verb: str, *arguments: str, **options: object) -> "subprocess.Popen[str]":
+        """Start a verb for this robot, as long as the robot's `with` lasts."""
+        command = [ZTELEOP, verb, "--robot", ROBOT, "--no-multicast-scouting", *arguments]
+        return self.start_program(command, **options)
+
+    def start_program(self, command: Sequence[str], **options: object) -> "subprocess.Popen[str]":
+        """Start any program, as long as the robot's `with` lasts."""
+        placed = {"env": self.environment, "cwd": self.folder} | options
+        return self._stack.enter_context(running(command, **placed))
+
+    def outputs(self) -> bytes:
+        """Return the registers of channels 0 and 1, throttle and steering."""
+        return self.registers.snapshot()[LED0_ON_L : LED0_ON_L + 8]
+
+    def _await_actuator(self) -> None:
+        asleep, give_up = self.outputs(), time.monotonic() + 10
+        while self.outputs() == asleep:
+            if self.actuator.poll() is not None or time.monotonic() > give_up:
+                raise SystemExit(f"the actuator did not start: {' '.join(map(str, self.actuator.args))}")
+            time.sleep(0.01)
+        time.sleep(0.3)
+
+
+class Operator:
+    """A keyboard node in a pseudo-terminal of its own, whose screen somebody else reads."""
+
+    def __init__(self, robot: Robot, command: Sequence[str] | None = None) -> None:
+        self._robot = robot
+        self._master, slave = pty.openpty()
+        fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 30, 100, 0, 0))
+        options: Mapping[str, object] = {"stdin": slave, "stdout": slave, "start_new_session": True}
+        self.process = (
+            robot.start_program(command, **options)
+            if command
+            else robot.start("keyboard", "--drive", "step", "--connect", robot.endpoint, **options)
+        )
+        select.select([self._master], [], [], 5)  # until it shows something
+        robot.start_program(["cat"], stdin=self._master)
+        os.close(slave)
+        time.sleep(1.0)
+        Path("/proc/self/timerslack_ns").write_text("1")
+
+    def press(self, key: bytes) -> float | None:
+        """Press a key; return the seconds until the chip changed, None when it did not."""
+        before, pressed = self._robot.outputs(), time.perf_counter()
+        os.write(self._master, key)
+        while self._robot.outputs() == before:
+            if time.perf_counter() - pressed > LONGEST:
+                return None
+            time.sleep(LOOK_EVERY)  # to poll without a pause would take one of two cores
+        return time.perf_counter() - pressed
+
+    def steer(self, presses: int) -> Iterator[float]:
+        """Steer left and right, some ten times a second; yield the milliseconds each took."""
+        for index in range(presses):
+            seconds = self.press(RIGHT if index % 2 else LEFT)
+            if seconds is None:
+                print(f"press {index} moved nothing", file=sys.stderr)
+            else:
+                yield 1000 * seconds
+            time.sleep(0.1 + random.uniform(-0.03, 0.03))

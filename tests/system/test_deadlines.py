@@ -1,0 +1,159 @@
+"""Who falls silent brings neutral, between real processes, measured at the chip from outside."""
+
+import signal
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import pytest
+from rig import NEUTRAL, Cable, Process, Rig, every, until
+
+from zteleop.bus import clock
+from zteleop.bus.node import Node
+from zteleop.messages import Pwm
+
+FORWARD = Pwm(390, 400)
+PATTERN = (390, 400)
+SILENCE = 0.3
+MARGIN = 0.15  # one beat's age, one step, and a busy machine
+
+
+class Operator:
+    """Says one command 50 times a second from a thread, with or without acts, until told otherwise."""
+
+    def __init__(self, node: Node, source: str = "keyboard", acts: bool = True) -> None:
+        self._publisher = node.publisher("pwm", Pwm, source=source)
+        self._node, self._acts = node, acts
+        self._ended = threading.Event()
+        self._thread = threading.Thread(target=self._run, daemon=True)
+        self._publisher.act()
+        self._thread.start()
+
+    def act(self) -> None:
+        self._publisher.act()
+
+    def end(self) -> None:
+        self._ended.set()
+        self._thread.join()
+
+    def _run(self) -> None:
+        while not self._ended.wait(0.02):
+            if self._acts:
+                self._publisher.act()
+            self._publisher.repeat(FORWARD)
+
+
+@contextmanager
+def operator(node: Node, **options: bool) -> Iterator[Operator]:
+    it = Operator(node, **options)
+    try:
+        yield it
+    finally:
+        it.end()
+
+
+def driven(rig: Rig) -> None:
+    until(lambda: rig.ticks == PATTERN, "the command on the chip")
+
+
+def neutral_after(rig: Rig, patience: float = 5.0) -> float:
+    return until(lambda: rig.ticks == NEUTRAL, "neutral", patience)
+
+
+@pytest.fixture
+def program(rig: Rig) -> Iterator[Process]:
+    """A sender in a process of its own: `zteleop pub` as source `keyboard`, 50 times a second."""
+    rig.actuator()
+    values = f"{{steering_ticks: {FORWARD.steering_ticks}, throttle_ticks: {FORWARD.throttle_ticks}}}"
+    sender = rig.join("pub", "pwm/keyboard", "Pwm", values, "-r", "50")
+    driven(rig)
+    yield sender
+
+
+def test_a_killed_sender(rig: Rig, program: Process) -> None:
+    program.signal(signal.SIGKILL)
+    assert neutral_after(rig) <= SILENCE + MARGIN
+
+
+def test_a_frozen_sender_and_its_return(rig: Rig, program: Process) -> None:
+    program.signal(signal.SIGSTOP)
+    assert neutral_after(rig) <= SILENCE + MARGIN
+    program.signal(signal.SIGCONT)
+    driven(rig)
+
+
+def test_a_cut_link(rig: Rig) -> None:
+    rig.actuator()
+    with Cable(rig.port) as cable:
+        node = rig.node(port=cable.port)
+        rig.hear(node)
+        with operator(node):
+            driven(rig)
+            cable.cut()
+            assert neutral_after(rig) <= SILENCE + MARGIN
+            for _ in every(0.02, 125):
+                assert rig.ticks == NEUTRAL
+            cable.mend()
+            for _ in every(0.02, 100):  # what was queued arrives now, and what the operator still says
+                assert rig.ticks == NEUTRAL
+
+
+def test_an_idle_operator_and_the_next_act(rig: Rig) -> None:
+    rig.actuator()
+    node = rig.node()
+    rig.hear(node)
+    began = clock.now()
+    with operator(node, acts=False) as it:
+        driven(rig)
+        neutral_after(rig, patience=6.0)
+        assert 4.9 <= clock.now() - began <= 5.0 + MARGIN
+        it.act()
+        assert until(lambda: rig.ticks == PATTERN, "motion after the next act") <= 0.5
+
+
+def test_stale_commands_never_move_the_robot(rig: Rig) -> None:
+    """The actuator stands still for 3 s under a stream; resumed, and the stream cut, it must not move."""
+    actuator = rig.actuator()
+    with Cable(rig.port) as cable:
+        node = rig.node(port=cable.port)
+        rig.hear(node)
+        with operator(node):
+            driven(rig)
+            actuator.signal(signal.SIGSTOP)
+            for _ in every(0.02, 150):
+                pass
+            cable.cut()
+            actuator.signal(signal.SIGCONT)
+            neutral_after(rig, patience=0.5)
+            for _ in every(0.001, 2000):
+                assert rig.ticks == NEUTRAL
+
+
+def test_an_actuator_that_stood_still_waits_until_the_operator_lets_go(rig: Rig) -> None:
+    actuator = rig.actuator()
+    node = rig.node()
+    rig.hear(node)
+    with operator(node):
+        driven(rig)
+        actuator.signal(signal.SIGSTOP)
+        for _ in every(0.02, 25):
+            pass
+        actuator.signal(signal.SIGCONT)
+        neutral_after(rig, patience=0.5)
+        for _ in every(0.02, 50):
+            assert rig.ticks == NEUTRAL
+    actuator.says("let go first")
+    with operator(node):
+        driven(rig)
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGHUP])
+def test_an_actuator_that_is_told_to_end_leaves_neutral(rig: Rig, number: int) -> None:
+    actuator = rig.actuator()
+    node = rig.node()
+    rig.hear(node)
+    with operator(node):
+        driven(rig)
+        actuator.signal(number)
+        assert actuator.ends() == 128 + number
+    assert rig.ticks == NEUTRAL
