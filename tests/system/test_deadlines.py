@@ -61,13 +61,13 @@ def neutral_after(rig: Rig, patience: float = 5.0) -> float:
 
 
 @pytest.fixture
-def program(rig: Rig) -> Iterator[Process]:
+def program(rig: Rig) -> Process:
     """A sender in a process of its own: `zteleop pub` as source `keyboard`, 50 times a second."""
     rig.actuator()
     values = f"{{steering_ticks: {FORWARD.steering_ticks}, throttle_ticks: {FORWARD.throttle_ticks}}}"
     sender = rig.join("pub", "pwm/keyboard", "Pwm", values, "-r", "50")
     driven(rig)
-    yield sender
+    return sender
 
 
 def test_a_killed_sender(rig: Rig, program: Process) -> None:
