@@ -9,7 +9,7 @@ from typing import Any
 import msgspec
 from msgspec import Struct, field
 
-from zteleop.bus.names import robot_name
+from zteleop.bus.names import chunk, robot_name
 from zteleop.bus.session import BusSettings
 from zteleop.control.drive import DriveSettings
 from zteleop.control.stick import Speeds
@@ -37,6 +37,8 @@ class Config(Struct, frozen=True, forbid_unknown_fields=True):
     def __post_init__(self) -> None:
         if self.robot is not None:
             robot_name(self.robot)
+        for source in self.drive.sources:
+            chunk(source, "a source")
         for name, settings in {self.driver: {}, **self.drivers}.items():
             settings_of(name, settings)
 

@@ -1,4 +1,4 @@
-"""What a node says in words: on the bus and to one listener here, each subject at most once a second."""
+"""What a node says in words, on the bus and to one listener here: each subject once a second, ten in all."""
 
 from collections.abc import Callable
 
@@ -6,7 +6,7 @@ from zteleop.bus import clock
 from zteleop.messages import Log
 
 _LEVELS = {Log.DEBUG: "debug", Log.INFO: "info", Log.WARN: "warning", Log.ERROR: "error"}
-_SUBJECTS = 100
+_A_SECOND = 10
 
 
 class NodeLog:
@@ -15,7 +15,7 @@ class NodeLog:
     def __init__(self, name: str, publish: Callable[[Log], None], show: Callable[[str], None]) -> None:
         self._name, self._publish, self.show = name, publish, show
         self._said: dict[str, float] = {}
-        self._held_back: dict[str, int] = {}
+        self._held_back = 0
 
     def info(self, text: str) -> None:
         self.say(Log.INFO, text, text)
@@ -27,16 +27,19 @@ class NodeLog:
         self.say(Log.ERROR, text, subject or text)
 
     def say(self, level: int, text: str, subject: str) -> None:
-        """Say a sentence, unless its subject was spoken of within the last second."""
+        """Say a sentence, unless its subject, or too much else, was spoken of within the last second."""
         now = clock.now()
-        if now - self._said.get(subject, float("-inf")) < 1.0:
-            self._held_back[subject] = self._held_back.get(subject, 0) + 1
+        self._said = {said: at for said, at in self._said.items() if now - at < 1.0}
+        if subject in self._said or len(self._said) >= _A_SECOND:
+            self._held_back += 1
             return
-        if len(self._said) >= _SUBJECTS:
-            self._said.clear()
-            self._held_back.clear()
         self._said[subject] = now
-        more = self._held_back.pop(subject, 0)
-        text = text[:500] + (f" ({more} more like it)" if more else "")
+        text = _printable(text[:500]) + (f" ({self._held_back} others held back)" if self._held_back else "")
+        self._held_back = 0
         self._publish(Log(clock.stamp(), level, self._name, text, "", "", 0))
         self.show(f"{self._name}: {_LEVELS[level]}: {text}")
+
+
+def _printable(text: str) -> str:
+    """Escape what could steer a terminal: names and reasons may come from strangers."""
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)

@@ -1,15 +1,13 @@
 """A node: a name on the bus, with publishers, subscriptions and timers, single-threaded for its user."""
 
 import secrets
-import signal
 import sys
-import threading
 from collections.abc import Callable
 from typing import Any, Self, TypeVar
 
 import zenoh
 
-from zteleop.bus import clock, codec, presence
+from zteleop.bus import clock, codec, presence, signals
 from zteleop.bus.heard import Heard
 from zteleop.bus.log import NodeLog
 from zteleop.bus.loop import Loop, Timer
@@ -52,14 +50,12 @@ class Node:
             self._log_publisher = self.publisher("log", Log)
 
     def __enter__(self) -> Self:
-        if threading.current_thread() is threading.main_thread():
-            for number in (signal.SIGTERM, signal.SIGHUP):
-                if signal.getsignal(number) == signal.SIG_DFL:
-                    signal.signal(number, _end)
+        self._undo_signals = signals.unwind()
         return self
 
     def __exit__(self, *exc: object) -> None:
         self.close()
+        self._undo_signals()
 
     def close(self) -> None:
         """Leave the bus. Unclosed, zenoh would keep the process for ever."""
@@ -203,8 +199,3 @@ def _tuple(types: Types[M]) -> tuple[type[M], ...]:
 
 def _to_stderr(line: str) -> None:
     sys.stderr.write(line + "\n")
-
-
-def _end(number: int, frame: object) -> None:
-    """Let a signal unwind every `with`, as Ctrl-C does."""
-    raise SystemExit(128 + number)

@@ -51,8 +51,11 @@ def endpoints(session: zenoh.Session) -> list[Endpoint]:
     found = set()
     for kind in ("pub", "sub"):
         for key in _tokens(session, f"robot/*/live/{kind}/**"):
-            _, robot, _, _, node, where, ros_type, topic = key.split("/", 7)
-            found.add(Endpoint(robot, kind, node, where, ros_type.replace(".", "/"), topic.replace("+", "*")))
+            parts = key.split("/", 7)
+            if len(parts) == 8 and key.isprintable():  # anybody may declare anything
+                _, robot, _, _, node, where, ros_type, topic = parts
+                ros_type, topic = ros_type.replace(".", "/"), topic.replace("+", "*")
+                found.add(Endpoint(robot, kind, node, where, ros_type, topic))
     return sorted(found)
 
 

@@ -32,8 +32,10 @@ def run(arguments: argparse.Namespace) -> int:
     robot = f"demo-{secrets.token_hex(2)}"
     endpoint = f"tcp/127.0.0.1:{_free_port()}"
     with ExitStack() as stack:
-        log = stack.enter_context(tempfile.NamedTemporaryFile("w+", prefix="zteleop-demo-", suffix=".log"))
-        where = ["--robot", robot, "--no-multicast-scouting"]
+        folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="zteleop-demo-")))
+        log = stack.enter_context((folder / "log").open("w"))
+        (folder / "config.toml").write_text(f'[drivers.simulated]\npath = "{folder / "chip"}"\n')
+        where = ["--config", str(folder / "config.toml"), "--robot", robot, "--no-multicast-scouting"]
         children = [
             stack.enter_context(child(["actuator", *where, "--listen", endpoint], log)),
             stack.enter_context(

@@ -59,7 +59,7 @@ def _print(sample: zenoh.Sample, as_json: bool) -> bool:
     try:
         values = codec.decode_any(bytes(sample.payload), str(sample.encoding))
     except MessageError as error:
-        print(f"{sample.key_expr}: {ascii(str(error))[1:-1]}", file=sys.stderr)
+        print(ascii(f"{sample.key_expr}: {error}")[1:-1], file=sys.stderr)
         return False
     print(msgspec.json.encode(values).decode() if as_json else _yaml(values), flush=True)
     return True

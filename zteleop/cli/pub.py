@@ -6,12 +6,13 @@ import msgspec
 from zteleop.bus import clock
 from zteleop.bus.names import resolve
 from zteleop.bus.node import Node
-from zteleop.bus.publisher import Publisher, moves
+from zteleop.bus.publisher import Publisher
 from zteleop.bus.topics import topic_of
 from zteleop.cli import options
+from zteleop.control.stick import neutral_pwm
 from zteleop.errors import BusError, MessageError
 from zteleop.interfaces.values import fill
-from zteleop.messages import Message, message_type
+from zteleop.messages import Int16MultiArray, Message, Pwm, Vehicle, message_type
 
 PATIENCE = 3.0
 
@@ -55,8 +56,17 @@ def _say(node: Node, publisher: Publisher[Message], message: Message, rate: floa
     try:
         node.spin()
     finally:
-        if times is None and publisher.sender and moves(message, node.heard().vehicle):
-            publisher.publish(type(message).zero())
+        if times is None and publisher.sender:
+            publisher.publish(_rest(message, node.heard().vehicle))
+
+
+def _rest(message: Message, vehicle: Vehicle | None) -> Message:
+    """Return the neutral command of the same type; of pulses, 0 is none."""
+    if isinstance(message, Pwm | Int16MultiArray) and vehicle:
+        pwm = neutral_pwm(vehicle)
+        neutral = [pwm.steering_ticks, pwm.throttle_ticks]
+        return pwm if isinstance(message, Pwm) else Int16MultiArray(message.layout, neutral)
+    return type(message).zero()
 
 
 def _wait(node: Node, publisher: Publisher[Message], command: bool) -> None:

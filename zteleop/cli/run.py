@@ -2,10 +2,10 @@
 
 import argparse
 import os
-import signal
 import sys
 from importlib import import_module
 
+from zteleop.bus import signals
 from zteleop.errors import ZteleopError
 
 
@@ -16,7 +16,7 @@ def run_verb(verb: str, text: str, arguments: list[str]) -> int:
     parser.add_argument("--debug", action="store_true", help="show the traceback of an error")
     module.add_arguments(parser)
     options = parser.parse_args(arguments)
-    signal.signal(signal.SIGTERM, _end)
+    undo_signals = signals.unwind()
     try:
         return module.run(options) or 0
     except KeyboardInterrupt:
@@ -28,6 +28,8 @@ def run_verb(verb: str, text: str, arguments: list[str]) -> int:
         return _fail(verb, str(error), options.debug)
     except Exception as error:
         return _fail(verb, f"{type(error).__name__}: {error} (a bug; --debug shows where)", options.debug)
+    finally:
+        undo_signals()
 
 
 def _fail(verb: str, words: str, debug: bool) -> int:
@@ -35,8 +37,3 @@ def _fail(verb: str, words: str, debug: bool) -> int:
         raise
     print(f"zteleop {verb}: {words}", file=sys.stderr)
     return 1
-
-
-def _end(number: int, frame: object) -> None:
-    """Let SIGTERM unwind every `with`."""
-    raise SystemExit(128 + number)

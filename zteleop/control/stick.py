@@ -50,6 +50,12 @@ def to_pwm(stick: Stick, vehicle: Vehicle) -> Pwm | None:
     return Pwm(ticks(channels["steering"], stick.turn), ticks(channels["throttle"], stick.forward))
 
 
+def neutral_pwm(vehicle: Vehicle) -> Pwm:
+    """Return the ticks at which a vehicle rests."""
+    neutral = {channel.name: channel.neutral_ticks for channel in vehicle.channels}
+    return Pwm(neutral["steering"], neutral["throttle"])
+
+
 def ticks(channel: Channel, fraction: float) -> int:
     """Return the duty that stands for a fraction, -1..1, of a channel's range."""
     end = channel.max_ticks if fraction > 0 else channel.min_ticks

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from zteleop.bus import clock
 from zteleop.bus.node import Node
-from zteleop.control.stick import Stick, to_pwm, to_twist
+from zteleop.control.stick import Stick, neutral_pwm, to_pwm, to_twist
 from zteleop.inputs import Input
 from zteleop.messages import (
     DriveStatus,
@@ -124,9 +124,3 @@ class Teleop:
         publisher = self._pwms if self._device.drive == "step" else self._twists
         ours = self._status is not None and self._status.operator == publisher.sender
         return View(now, self._vehicle, stick, command, self._status, ours, self._odom, self._note)
-
-
-def neutral_pwm(vehicle: Vehicle) -> Pwm:
-    """Return the ticks at which a vehicle rests."""
-    neutral = {channel.name: channel.neutral_ticks for channel in vehicle.channels}
-    return Pwm(neutral["steering"], neutral["throttle"])

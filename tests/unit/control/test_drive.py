@@ -183,6 +183,20 @@ def test_impossible_vehicles_are_refused(changes: dict[str, dict[str, Servo]], w
         DriveSettings(**changes)
 
 
+finite = st.floats(allow_nan=False, allow_infinity=False)
+
+
+@given(st.lists(st.tuples(finite, finite), min_size=1, max_size=8))
+def test_no_twist_leaves_the_calibration(twists: list[tuple[float, float]]) -> None:
+    robot = Robot()
+    for speed, turn in twists:
+        robot.say(Twist.planar(speed, turn))
+        step = robot.wait(0.04)
+        assert 897.6 - 1e-6 <= step.pulse_us[0] <= 2040.0 + 1e-6
+        assert 1183.2 - 1e-6 <= step.pulse_us[1] <= 1876.8 + 1e-6
+        assert all(abs(pulse.fraction) <= 1 for pulse in status(robot.drive, step, robot.now).pulses)
+
+
 ACTS = st.one_of(
     st.tuples(st.just("say"), st.sampled_from("abc"), st.sampled_from(["keyboard", "web"]), st.booleans()),
     st.tuples(st.just("let go"), st.sampled_from("abc")),

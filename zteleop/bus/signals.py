@@ -1,0 +1,34 @@
+"""A signal that ends a process unwinds every `with` first, once: the last word is neutral."""
+
+import signal
+import threading
+from collections.abc import Callable
+from types import FrameType
+from typing import Any
+
+ENDING = (signal.SIGINT, signal.SIGTERM, *([signal.SIGHUP] if hasattr(signal, "SIGHUP") else []))
+_DEFAULTS = (signal.SIG_DFL, signal.default_int_handler)
+
+
+def unwind() -> Callable[[], None]:
+    """Make the ending signals raise, where nobody handles them yet; return what undoes it."""
+    if threading.current_thread() is not threading.main_thread():
+        return lambda: None
+    before: dict[int, Any] = {number: signal.getsignal(number) for number in ENDING}
+    ours = {number: handler for number, handler in before.items() if handler in _DEFAULTS}
+    for number in ours:
+        signal.signal(number, _raise)
+
+    def undo() -> None:
+        for number, handler in ours.items():
+            signal.signal(number, handler)
+
+    return undo
+
+
+def _raise(number: int, frame: FrameType | None) -> None:
+    for ending in ENDING:  # a second Ctrl-C must not end what the first began to clean up
+        signal.signal(ending, signal.SIG_IGN)
+    if number == signal.SIGINT:
+        raise KeyboardInterrupt
+    raise SystemExit(128 + number)
