@@ -67,6 +67,7 @@ class Node:
     def publisher(self, topic: str, types: Types[M], *, source: str = "program") -> Publisher[M]:
         """Return what says messages on a topic; on a command topic, as a source of that kind.
 
+        For a command it first waits, at most 1 s, until the robot is heard: its proofs echo the beats.
         Raises ConfigError when the topic's name is none, or the topic takes other types.
         """
         name, kinds = resolve(topic, self.robot), _tuple(types)
@@ -79,6 +80,7 @@ class Node:
         if name.path == kind.name:
             name = Name(name.robot, f"{kind.name}/{chunk(source, 'a source')}")
         heard = self.heard(name.robot)
+        heard.wait()
         return Publisher(
             self._declare(name, kinds, kind.urgent),
             kinds,
