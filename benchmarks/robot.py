@@ -105,7 +105,7 @@ class Operator:
     """A keyboard node in a pseudo-terminal of its own, whose screen somebody else reads."""
 
     def __init__(self, robot: Robot, command: Sequence[str] | None = None) -> None:
-        self._robot = robot
+        self._robot, self.missed = robot, 0
         self._master, slave = pty.openpty()
         fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 30, 100, 0, 0))
         options: Mapping[str, object] = {"stdin": slave, "stdout": slave, "start_new_session": True}
@@ -135,7 +135,7 @@ class Operator:
         for index in range(presses):
             seconds = self.press(RIGHT if index % 2 else LEFT)
             if seconds is None:
-                print(f"press {index} moved nothing", file=sys.stderr)
+                self.missed += 1
             else:
                 yield 1000 * seconds
             time.sleep(0.1 + random.uniform(-0.03, 0.03))

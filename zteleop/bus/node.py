@@ -64,7 +64,9 @@ class Node:
             pump.close()
         self._loop.close()
 
-    def publisher(self, topic: str, types: Types[M], *, source: str = "program") -> Publisher[M]:
+    def publisher(
+        self, topic: str, types: Types[M], *, source: str = "program", wait: bool = True
+    ) -> Publisher[M]:
         """Return what says messages on a topic; on a command topic, as a source of that kind.
 
         For a command it first waits, at most 1 s, until the robot is heard: its proofs echo the beats.
@@ -80,7 +82,8 @@ class Node:
         if name.path == kind.name:
             name = Name(name.robot, f"{kind.name}/{chunk(source, 'a source')}")
         heard = self.heard(name.robot)
-        heard.wait()
+        if wait:
+            heard.wait()
         return Publisher(
             self._declare(name, kinds, kind.urgent),
             kinds,

@@ -1,8 +1,11 @@
 """What an operator sees, as lines for a terminal of any size."""
 
 from zteleop.inputs.cells import Span, fit, pad, paint, width
-from zteleop.inputs.dashboard import Dashboard, Line, brief, footer, readings, steering_angle
+from zteleop.inputs.dashboard import Dashboard, Line
+from zteleop.inputs.readings import brief, footer, readings, steering_angle
 from zteleop.inputs.top_view import draw
+
+__all__ = ["Dashboard", "render"]
 
 BESIDE = 70
 """Columns from which on the picture stands at the right."""

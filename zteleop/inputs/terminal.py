@@ -6,16 +6,17 @@ import select
 import signal
 import sys
 import termios
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from types import FrameType
 from typing import Any, Self
 
 from zteleop.errors import DeviceError
+from zteleop.inputs.capabilities import speaks_unicode, wants_color
+from zteleop.inputs.frames import changes, one_line
 
 ENTER = "\x1b[?1049h\x1b[?25l\x1b[?2004h"
 LEAVE = "\x1b[?2026l\x1b[?2004l\x1b[0m\x1b[?25h\x1b[?1049l"
-FRAME_BEGIN, FRAME_END = "\x1b[?2026h", "\x1b[?2026l"
 PATIENCE = 0.5
 """s that leaving waits for a terminal that takes nothing in."""
 FALLBACK_SIZE = (80, 24)
@@ -99,7 +100,7 @@ class Terminal:
             return
         size = self.size()
         lines = list(lines[: size[1]])
-        self._pending = self._encode(self._line(lines, size) if self._dumb else self._changes(lines, size))
+        self._pending = self._encode(self._frame(lines, size))
         self._shown, self._shown_size = lines, size
         self._push()
 
@@ -160,22 +161,10 @@ class Terminal:
             self._enter()
             self.resumed += 1
 
-    def _line(self, lines: Sequence[str], size: tuple[int, int]) -> str:
-        last = size[0] - 1
-        return f"\r{''.join(lines[:1]).ljust(last)[:last]}" if lines != self._shown else ""
-
-    def _changes(self, lines: Sequence[str], size: tuple[int, int]) -> str:
-        fresh = size != self._shown_size
-        shown = [] if fresh else self._shown
-        rows = [
-            # erase first: after a full row the cursor hangs on its last cell, which erasing would take
-            f"\x1b[{row + 1};1H\x1b[2K{line}"
-            for row, line in enumerate([*lines, *[""] * (len(shown) - len(lines))])
-            if row >= len(shown) or line != shown[row]
-        ]
-        if not rows and not fresh:
-            return ""
-        return f"{FRAME_BEGIN}{chr(27) + '[2J' if fresh else ''}{''.join(rows)}{FRAME_END}"
+    def _frame(self, lines: Sequence[str], size: tuple[int, int]) -> str:
+        if self._dumb:
+            return one_line(lines, size[0]) if lines != self._shown else ""
+        return changes(lines, None if size != self._shown_size else self._shown)
 
     def _encode(self, text: str) -> bytes:
         return text.encode("utf-8" if self.unicode else "ascii", "replace")
@@ -239,14 +228,3 @@ def in_foreground(fd: int) -> bool:
         return os.tcgetpgrp(fd) == os.getpgrp()
     except OSError:
         return True
-
-
-def wants_color(environ: Mapping[str, str]) -> bool:
-    """Return whether colours are welcome (no-color.org)."""
-    return not environ.get("NO_COLOR") and environ.get("TERM", "dumb") not in ("", "dumb")
-
-
-def speaks_unicode(environ: Mapping[str, str], encoding: str | None) -> bool:
-    """Return whether the locale says UTF-8; without a locale, standard output's encoding decides."""
-    locale = next((environ[name] for name in ("LC_ALL", "LC_CTYPE", "LANG") if environ.get(name)), encoding)
-    return "utf8" in (locale or "").lower().replace("-", "") and environ.get("TERM") != "linux"

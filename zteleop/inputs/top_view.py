@@ -5,7 +5,7 @@ On the screen x is up and y is left (REP-103). The robot is drawn larger than li
 
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
-from math import atan2, cos, hypot, isfinite, sin
+from math import atan2, cos, hypot, isfinite, pi, sin
 
 from zteleop.messages import Odometry, Vehicle
 
@@ -97,6 +97,7 @@ def draw(
     across, down = 2 * columns, 4 * rows
     scale = min(across, down) / SPAN
     known = pose(odom)
+    steering_angle = steering_angle if abs(steering_angle) < pi else 0.0
     x, y, heading = known or (0.0, 0.0, 0.0)
     middle_x, middle_y = window(x, down / scale), window(y, across / scale)
 

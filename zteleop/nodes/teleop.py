@@ -46,8 +46,8 @@ class Teleop:
     ) -> None:
         self._node, self._device, self._vehicle, self._show = node, device, vehicle, show
         self._heard = node.heard()
-        self._twists = node.publisher("cmd_vel", TwistStamped, source=source)
-        self._pwms = node.publisher("pwm", Pwm, source=source)
+        self._twists = node.publisher("cmd_vel", TwistStamped, source=source, wait=False)
+        self._pwms = node.publisher("pwm", Pwm, source=source, wait=False)
         self._statuses = node.subscription("drive_status", DriveStatus)
         self._odoms = node.subscription("odom", Odometry)
         self._logs = node.subscription("log", Log)

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 import pytest
 import smbus2 as real_smbus2
+from unit.drivers.wire import Wire
 
 from zteleop.drivers.i2c import answering, failure, open_i2c
 from zteleop.drivers.pca9685 import Pca9685, Pca9685Settings
@@ -39,7 +40,7 @@ class FakeSmbus2:
         self.closed = True
 
 
-def test_the_adapters_timeout_is_20_ms():
+def test_the_adapters_timeout_is_20_ms() -> None:
     calls = []
     fake = FakeSmbus2()
     i2c = open_i2c(3, fake, lambda *call: calls.append(call))
@@ -49,7 +50,7 @@ def test_the_adapters_timeout_is_20_ms():
     assert fake.closed
 
 
-def test_blocks_go_out_as_messages_of_one_transaction():
+def test_blocks_go_out_as_messages_of_one_transaction() -> None:
     fake = FakeSmbus2()
     i2c = open_i2c(1, fake, lambda *_: None)
     i2c.write_blocks(0x40, [(0x06, b"\0\0\1\2"), (0x16, b"\0\0\3\4")])
@@ -62,19 +63,20 @@ def test_blocks_go_out_as_messages_of_one_transaction():
         (errno.ENOENT, "/dev/i2c-1 not found; is I2C enabled? (sudo raspi-config nonint do_i2c 0)"),
         (
             errno.EACCES,
-            "/dev/i2c-1: no permission; add yourself to group i2c (sudo usermod -aG i2c $USER) and log in again",
+            "/dev/i2c-1: no permission; add yourself to group i2c (sudo usermod -aG i2c $USER) "
+            "and log in again",
         ),
         (errno.EIO, "/dev/i2c-1: Input/output error; check power, wiring and the length of the cable"),
     ],
 )
-def test_a_bus_that_does_not_open_says_why_and_is_closed(error, sentence):
+def test_a_bus_that_does_not_open_says_why_and_is_closed(error: int, sentence: str) -> None:
     fake = FakeSmbus2(error)
     with pytest.raises(DeviceError, match=f"^{re.escape(sentence)}$"):
         open_i2c(1, fake, lambda *_: None)
     assert fake.closed
 
 
-def test_an_adapter_without_block_writes_is_refused():
+def test_an_adapter_without_block_writes_is_refused() -> None:
     fake = FakeSmbus2()
     fake.funcs = 0x06FF0009 & ~0x08000000
     with pytest.raises(DeviceError, match="cannot write such I2C blocks"):
@@ -82,7 +84,7 @@ def test_an_adapter_without_block_writes_is_refused():
     assert fake.closed
 
 
-def test_without_smbus2_it_says_what_to_install(monkeypatch):
+def test_without_smbus2_it_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "smbus2", None)
     with pytest.raises(DeviceError, match=r"needs Linux and smbus2 .*; or use the simulated driver"):
         open_i2c(1)
@@ -103,20 +105,20 @@ def test_without_smbus2_it_says_what_to_install(monkeypatch):
         (errno.EAGAIN, "0x40 on /dev/i2c-1: "),
     ],
 )
-def test_a_failed_transfer_says_where_what_and_what_to_do(error, words):
+def test_a_failed_transfer_says_where_what_and_what_to_do(error: int, words: str) -> None:
     sentence = str(failure(OSError(error, os.strerror(error)), "/dev/i2c-1", 0x40))
     assert words in sentence
     assert ";" in sentence
 
 
-def test_answering_names_the_addresses_that_do(wire):
+def test_answering_names_the_addresses_that_do(wire: Wire) -> None:
     wire.address = 0x70
     assert answering(wire) == "found 0x70"
     wire.address = 0x20
     assert answering(wire) == "nor at any other; check power and wiring"
 
 
-def test_the_real_smbus2_speaks_to_the_chip(wire, monkeypatch):
+def test_the_real_smbus2_speaks_to_the_chip(wire: Wire, monkeypatch: pytest.MonkeyPatch) -> None:
     """Everything but the kernel: smbus2's own ioctls, answered by the simulated chip."""
     module = real_smbus2.smbus2
     opened = SimpleNamespace(O_RDWR=os.O_RDWR, open=lambda *_: os.open(os.devnull, os.O_RDWR), close=os.close)
@@ -130,7 +132,7 @@ def test_the_real_smbus2_speaks_to_the_chip(wire, monkeypatch):
     driver.close()
 
 
-def kernel(wire, module):
+def kernel(wire: Wire, module):
     def ioctl(fd, request, argument):
         if request == module.I2C_FUNCS:
             argument.value = 0x0EFF0009

@@ -1,3 +1,5 @@
+from pathlib import Path
+
 import pytest
 
 from zteleop.drivers import DRIVERS, open_driver
@@ -6,7 +8,7 @@ from zteleop.drivers.simulated import SimulatedSettings
 from zteleop.errors import ConfigError
 
 
-def test_an_unknown_driver_is_refused_with_the_known_names():
+def test_an_unknown_driver_is_refused_with_the_known_names() -> None:
     with pytest.raises(ConfigError, match=r"no driver named 'pca9658'; known: pca9685, simulated"):
         open_driver("pca9658", {})
 
@@ -17,29 +19,29 @@ def test_an_unknown_driver_is_refused_with_the_known_names():
         ({"address": 0x20}, r"drivers\.pca9685\.address: Expected `int` >= 64"),
         ({"adress": 0x40}, r"drivers\.pca9685: Object contains unknown field `adress`"),
         ({"frequency_hz": "fast"}, r"drivers\.pca9685\.frequency_hz: Expected `float`"),
-        ({"frequency_hz": float("nan")}, r"drivers\.pca9685: frequency_hz must be within 24\.\.1526"),
+        ({"frequency_hz": float("nan")}, r"drivers\.pca9685\.frequency_hz: Expected `float` >= 24"),
         ({"frequency_hz": 24, "osc_hz": 30e6}, r"frequency_hz must be within 29\.\.1831, found 24"),
     ],
 )
-def test_a_wrong_setting_is_named_by_its_path(settings, sentence):
+def test_a_wrong_setting_is_named_by_its_path(settings: dict[str, object], sentence: str) -> None:
     with pytest.raises(ConfigError, match=sentence):
         open_driver("pca9685", settings)
 
 
-def test_the_simulated_driver_is_the_real_driver_on_a_file(tmp_path):
+def test_the_simulated_driver_is_the_real_driver_on_a_file(tmp_path: Path) -> None:
     driver = open_driver("simulated", {"path": str(tmp_path / "chip"), "frequency_hz": 50})
     assert isinstance(driver, Pca9685)
     assert driver.tick_us == pytest.approx(4.88)
     driver.close()
 
 
-def test_settings_may_be_the_struct_that_config_already_made(tmp_path):
+def test_settings_may_be_the_struct_that_config_already_made(tmp_path: Path) -> None:
     driver = open_driver("simulated", SimulatedSettings(path=str(tmp_path / "chip")))
     assert driver.tick_us == pytest.approx(4.08)
     driver.close()
 
 
-def test_every_driver_of_the_table_says_what_settings_it_obeys():
+def test_every_driver_of_the_table_says_what_settings_it_obeys() -> None:
     from importlib import import_module
 
     for module in DRIVERS.values():

@@ -1,4 +1,5 @@
 import os
+from pathlib import Path
 
 import pytest
 
@@ -7,23 +8,23 @@ from zteleop.errors import DeviceError
 
 
 @pytest.fixture
-def path(tmp_path):
+def path(tmp_path: Path) -> str:
     return str(tmp_path / "chip.lock")
 
 
-def test_the_second_is_refused_with_the_process_that_has_it(path):
+def test_the_second_is_refused_with_the_process_that_has_it(path: str) -> None:
     held = Lock(path, "the chip")
     with pytest.raises(DeviceError, match=f"^the chip is driven by process {os.getpid()} already; stop it"):
         Lock(path, "the chip")
     held.release()
 
 
-def test_a_released_lock_can_be_taken_again(path):
+def test_a_released_lock_can_be_taken_again(path: str) -> None:
     Lock(path, "the chip").release()
     Lock(path, "the chip").release()
 
 
-def test_a_refusal_does_not_end_the_owners_lock(path):
+def test_a_refusal_does_not_end_the_owners_lock(path: str) -> None:
     held = Lock(path, "the chip")
     for _ in range(2):
         with pytest.raises(DeviceError):
@@ -31,20 +32,20 @@ def test_a_refusal_does_not_end_the_owners_lock(path):
     held.release()
 
 
-def test_releasing_twice_is_harmless(path):
+def test_releasing_twice_is_harmless(path: str) -> None:
     lock = Lock(path, "the chip")
     lock.release()
     lock.release()
 
 
-def test_the_pid_of_a_dead_owner_is_replaced(path, tmp_path):
+def test_the_pid_of_a_dead_owner_is_replaced(path: str, tmp_path: Path) -> None:
     (tmp_path / "chip.lock").write_text("999999999999\n")
     held = Lock(path, "the chip")
     assert (tmp_path / "chip.lock").read_text() == f"{os.getpid()}\n"
     held.release()
 
 
-def test_other_users_of_the_machine_may_lock_too(path):
+def test_other_users_of_the_machine_may_lock_too(path: str) -> None:
     before = os.umask(0o077)
     try:
         Lock(path, "the chip").release()
@@ -53,7 +54,7 @@ def test_other_users_of_the_machine_may_lock_too(path):
     assert os.stat(path).st_mode & 0o777 == 0o666
 
 
-def test_a_symbolic_link_is_not_followed(path, tmp_path):
+def test_a_symbolic_link_is_not_followed(path: str, tmp_path: Path) -> None:
     (tmp_path / "elsewhere").write_text("keep me")
     os.symlink(tmp_path / "elsewhere", path)
     with pytest.raises(DeviceError, match="cannot open the lock"):
@@ -61,5 +62,5 @@ def test_a_symbolic_link_is_not_followed(path, tmp_path):
     assert (tmp_path / "elsewhere").read_text() == "keep me"
 
 
-def test_locks_of_the_machine_go_where_everybody_may_write():
+def test_locks_of_the_machine_go_where_everybody_may_write() -> None:
     assert os.stat(machine_folder()).st_mode & 0o002

@@ -1,5 +1,6 @@
 import os
 import stat
+from pathlib import Path
 
 import pytest
 
@@ -11,17 +12,17 @@ from zteleop.errors import DeviceError
 
 
 @pytest.fixture
-def path(tmp_path):
+def path(tmp_path: Path) -> str:
     return str(tmp_path / "runtime" / "zteleop" / "car.pca9685")
 
 
-def started(path, neutral_us):
+def started(path: str, neutral_us: dict[int, float]) -> Pca9685:
     driver = Pca9685(SimulatedI2C(open_chip(path), path), Pca9685Settings(), lambda _: None)
     driver.start(neutral_us)
     return driver
 
 
-def test_a_chip_that_was_not_there_has_just_got_power(path, tmp_path):
+def test_a_chip_that_was_not_there_has_just_got_power(path: str, tmp_path: Path) -> None:
     with open_registers(path) as registers:
         assert registers.snapshot() == POWER_UP
     assert (tmp_path / "runtime" / "zteleop" / "car.pca9685").read_bytes() == POWER_UP
@@ -29,13 +30,13 @@ def test_a_chip_that_was_not_there_has_just_got_power(path, tmp_path):
 
 
 @pytest.mark.parametrize("content", [b"", b"not a chip", bytes(300)])
-def test_a_file_of_another_size_is_no_chip_and_gets_power(tmp_path, content):
+def test_a_file_of_another_size_is_no_chip_and_gets_power(tmp_path: Path, content: bytes) -> None:
     (tmp_path / "chip").write_bytes(content)
     open_chip(str(tmp_path / "chip"))
     assert (tmp_path / "chip").read_bytes() == POWER_UP
 
 
-def test_byte_n_of_the_file_is_register_n(path):
+def test_byte_n_of_the_file_is_register_n(path: str) -> None:
     started(path, {0: 1500}).close()
     with open(path, "rb") as file:
         registers = file.read()
@@ -43,7 +44,7 @@ def test_byte_n_of_the_file_is_register_n(path):
     assert registers[6:10] == bytes([0, 0, 0x70, 1])
 
 
-def test_the_chip_outlives_its_driver_and_keeps_the_last_pulse(path):
+def test_the_chip_outlives_its_driver_and_keeps_the_last_pulse(path: str) -> None:
     driver = started(path, {0: 1500})
     driver.write({0: 1800})
     driver.close()
@@ -51,7 +52,7 @@ def test_the_chip_outlives_its_driver_and_keeps_the_last_pulse(path):
         assert read_pulse_us(registers.snapshot(), 0) == pytest.approx(1800, abs=2.04)
 
 
-def test_a_watcher_sees_what_others_write(path):
+def test_a_watcher_sees_what_others_write(path: str) -> None:
     with open_registers(path) as registers:
         driver = started(path, {0: 1500})
         assert read_pulse_us(registers.snapshot(), 0) == pytest.approx(1500, abs=2.04)
@@ -60,7 +61,7 @@ def test_a_watcher_sees_what_others_write(path):
         driver.close()
 
 
-def test_two_drivers_see_one_truth(path):
+def test_two_drivers_see_one_truth(path: str) -> None:
     actuator, watchdog = started(path, {0: 1500}), started(path, {0: 1500})
     actuator.write({0: 2000})
     assert watchdog.read([0])[0] == pytest.approx(2000, abs=2.04)
@@ -68,12 +69,12 @@ def test_two_drivers_see_one_truth(path):
     assert actuator.read([0])[0] == pytest.approx(1500, abs=2.04)
 
 
-def test_a_watcher_cannot_write(path):
+def test_a_watcher_cannot_write(path: str) -> None:
     with open_registers(path) as registers, pytest.raises(TypeError):
         registers._memory[0] = 1
 
 
-def test_a_snapshot_waits_until_two_looks_agree():
+def test_a_snapshot_waits_until_two_looks_agree() -> None:
     looks = [b"half", b"whole", b"whole", b"later"]
 
     class Memory:
@@ -83,7 +84,7 @@ def test_a_snapshot_waits_until_two_looks_agree():
     assert Registers(Memory()).snapshot() == b"whole"
 
 
-def test_a_second_actuator_is_refused_with_the_process_of_the_first(path):
+def test_a_second_actuator_is_refused_with_the_process_of_the_first(path: str) -> None:
     first = open_driver("simulated", {"path": path})
     words = f"{path} is driven by process {os.getpid()} already; stop it first"
     with pytest.raises(DeviceError, match=words):
@@ -93,7 +94,7 @@ def test_a_second_actuator_is_refused_with_the_process_of_the_first(path):
     open_driver("simulated", {"path": path}).close()
 
 
-def test_nobody_answers_at_another_address(path):
+def test_nobody_answers_at_another_address(path: str) -> None:
     i2c = SimulatedI2C(open_chip(path), path, 0x41)
     with pytest.raises(OSError, match="nobody answers"):
         i2c.write_byte_data(0x40, 0, 0x20)
@@ -102,7 +103,7 @@ def test_nobody_answers_at_another_address(path):
     assert open_registers(path).snapshot() == POWER_UP
 
 
-def test_a_file_that_cannot_be_opened_names_the_setting(tmp_path):
+def test_a_file_that_cannot_be_opened_names_the_setting(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(
         DeviceError, match=r"cannot open the simulated chip .*path under \[drivers\.simulated\]"
@@ -110,7 +111,7 @@ def test_a_file_that_cannot_be_opened_names_the_setting(tmp_path):
         open_chip(str(tmp_path / "file" / "chip"))
 
 
-def test_the_default_is_in_the_users_runtime_folder(monkeypatch):
+def test_the_default_is_in_the_users_runtime_folder(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("XDG_RUNTIME_DIR", "/run/user/7")
     assert default_path("archangel") == "/run/user/7/zteleop/archangel.pca9685"
     monkeypatch.delenv("XDG_RUNTIME_DIR")

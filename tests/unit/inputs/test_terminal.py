@@ -10,7 +10,7 @@ import pyte
 import pytest
 
 from zteleop.errors import DeviceError
-from zteleop.inputs.terminal import ENTER, LEAVE, Terminal, find_terminal, speaks_unicode, wants_color
+from zteleop.inputs.terminal import ENTER, LEAVE, Terminal, find_terminal
 
 
 class Pty:
@@ -209,32 +209,3 @@ def test_output_s_terminal_serves_when_input_is_a_pipe(tty, monkeypatch, tmp_pat
         monkeypatch.setattr("sys.stdin", file)
         monkeypatch.setattr("sys.stdout", out)
         assert find_terminal() == tty.slave
-
-
-@pytest.mark.parametrize(
-    ("environ", "color"),
-    [
-        ({"TERM": "xterm"}, True),
-        ({"TERM": "xterm", "NO_COLOR": "1"}, False),
-        ({"TERM": "dumb"}, False),
-        ({}, False),
-    ],
-)
-def test_colour_is_a_matter_of_taste(environ, color):
-    assert wants_color(environ) is color
-
-
-@pytest.mark.parametrize(
-    ("environ", "encoding", "unicode"),
-    [
-        ({"LANG": "de_DE.UTF-8"}, "ascii", True),
-        ({"LANG": "de_DE.UTF-8", "LC_ALL": "C"}, "utf-8", False),
-        ({"LC_CTYPE": "C.utf8"}, None, True),
-        ({"LANG": "de_DE.ISO-8859-1"}, "utf-8", False),
-        ({}, "UTF-8", True),
-        ({}, None, False),
-        ({"LANG": "C.UTF-8", "TERM": "linux"}, "utf-8", False),
-    ],
-)
-def test_unicode_is_the_locales_word(environ, encoding, unicode):
-    assert speaks_unicode(environ, encoding) is unicode
