@@ -46,10 +46,9 @@ class Chip:
         self.memory[:] = POWER_UP
 
     def read(self, register: int, length: int) -> bytes:
-        """Return `length` bytes from `register` on; ALL_LED_* read 0."""
+        """Return `length` bytes from `register` on; ALL_LED_* hold nothing and read 0."""
         image = bytes(self.memory)
-        places = _places(image, register, length)
-        return bytes(0 if place in ALL_LEDS else image[place] for place in places)
+        return bytes(image[place] for place in _places(image, register, length))
 
     def write(self, blocks: Iterable[Block]) -> None:
         """Take one transaction, (register, bytes) for each START of it, and latch at the STOP.

@@ -1,3 +1,5 @@
+from typing import Any
+
 import pytest
 
 from zteleop.drivers.chip import POWER_UP, Chip
@@ -19,14 +21,18 @@ class Memory(bytearray):
 
     changes = 0
 
-    def __setitem__(self, *change):
+    def __setitem__(self, *change: Any) -> None:
         self.changes += 1
         super().__setitem__(*change)
 
 
 @pytest.fixture
 def chip() -> Chip:
-    return Chip(Memory(POWER_UP))
+    return Chip(bytearray(POWER_UP))
+
+
+def ticks(chip: Chip, channel: int) -> int | None:
+    return read_duty_ticks(bytes(chip.memory), channel)
 
 
 def write(chip: Chip, register: int, *data: int) -> None:
@@ -53,7 +59,7 @@ def test_with_auto_increment_a_block_fills_a_channel(chip: Chip) -> None:
     write(chip, MODE1, AWAKE)
     write(chip, LED0_ON_L, 0, 0, 0x70, 0x01)
     assert chip.read(LED0_ON_L, 4) == bytes([0, 0, 0x70, 0x01])
-    assert read_duty_ticks(chip.memory, 0) == 368
+    assert ticks(chip, 0) == 368
 
 
 def test_auto_increment_may_be_set_by_the_same_block(chip: Chip) -> None:
@@ -87,11 +93,11 @@ def test_pre_scale_is_never_below_3(chip: Chip) -> None:
 def test_all_led_fans_out_and_reads_0(chip: Chip) -> None:
     write(chip, MODE1, AWAKE)
     write(chip, ALL_LED_ON_L, 0, 0, 0x70, 0x01)
-    assert [read_duty_ticks(chip.memory, channel) for channel in range(16)] == [368] * 16
+    assert [ticks(chip, channel) for channel in range(16)] == [368] * 16
     assert chip.read(ALL_LED_ON_L, 4) == bytes(4)
     assert bytes(chip.memory[ALL_LED_ON_L : ALL_LED_ON_L + 4]) == bytes(4)
     write(chip, ALL_LED_OFF_H, 0x10)
-    assert [read_duty_ticks(chip.memory, channel) for channel in range(16)] == [None] * 16
+    assert [ticks(chip, channel) for channel in range(16)] == [None] * 16
 
 
 def test_a_sleep_that_cuts_pulses_asks_for_a_restart(chip: Chip) -> None:
@@ -101,10 +107,10 @@ def test_a_sleep_that_cuts_pulses_asks_for_a_restart(chip: Chip) -> None:
     assert chip.memory[MODE1] == ASLEEP | 0x80
     write(chip, MODE1, AWAKE)
     assert chip.memory[MODE1] == AWAKE | 0x80
-    assert read_duty_ticks(chip.memory, 0) is None
+    assert ticks(chip, 0) is None
     write(chip, MODE1, AWAKE | 0x80)
     assert chip.memory[MODE1] == AWAKE
-    assert read_duty_ticks(chip.memory, 0) == 368
+    assert ticks(chip, 0) == 368
 
 
 def test_writing_a_pulse_restarts_too(chip: Chip) -> None:
@@ -151,12 +157,12 @@ def test_what_came_before_a_reserved_register_is_latched(chip: Chip) -> None:
     assert chip.memory[MODE1] == AWAKE
 
 
-def test_a_transaction_shows_in_one_change_of_memory(chip: Chip) -> None:
+def test_a_transaction_shows_in_one_change_of_memory() -> None:
+    memory = Memory(POWER_UP)
+    chip = Chip(memory)
     write(chip, MODE1, AWAKE)
-    chip.memory.changes = 0
     write(chip, LED0_ON_L, 0, 0, 0x70, 0x01, 0, 0, 0x70, 0x01)
-    assert chip.memory.changes == 1
+    assert memory.changes == 2
     chip.write([(LED0_ON_L, bytes([0, 0, 9, 0])), (LED0_ON_L + 40, bytes([0, 0, 9, 0]))])
-    assert chip.memory.changes == 2
-    assert (read_duty_ticks(chip.memory, 0), read_duty_ticks(chip.memory, 10)) == (9, 9)
-    assert read_duty_ticks(chip.memory, 1) == 368
+    assert memory.changes == 3
+    assert (ticks(chip, 0), ticks(chip, 1), ticks(chip, 10)) == (9, 368, 9)

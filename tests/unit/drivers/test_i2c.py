@@ -3,6 +3,7 @@ import os
 import re
 import sys
 from types import SimpleNamespace
+from typing import Any, Self
 
 import pytest
 import smbus2 as real_smbus2
@@ -19,24 +20,25 @@ class FakeSmbus2:
     fd = 7
     funcs = 0x08000001
 
-    def __init__(self, error=None):
-        self.error, self.closed, self.sent = error, False, []
+    def __init__(self, error: int | None = None) -> None:
+        self.error, self.closed = error, False
+        self.sent: list[Any] = []
         self.i2c_msg = SimpleNamespace(write=lambda address, data: (address, bytes(data)))
         self.read_byte_data = self.read_i2c_block_data = None
         self.write_byte_data = self.write_i2c_block_data = None
 
-    def SMBus(self):  # noqa: N802
+    def SMBus(self) -> Self:  # noqa: N802
         return self
 
-    def open(self, bus):
+    def open(self, bus: int) -> None:
         self.bus = bus
         if self.error:
             raise OSError(self.error, os.strerror(self.error))
 
-    def i2c_rdwr(self, *messages):
+    def i2c_rdwr(self, *messages: Any) -> None:
         self.sent.append(messages)
 
-    def close(self):
+    def close(self) -> None:
         self.closed = True
 
 
@@ -132,8 +134,8 @@ def test_the_real_smbus2_speaks_to_the_chip(wire: Wire, monkeypatch: pytest.Monk
     driver.close()
 
 
-def kernel(wire: Wire, module):
-    def ioctl(fd, request, argument):
+def kernel(wire: Wire, module: Any) -> Any:
+    def ioctl(fd: int, request: int, argument: Any) -> None:
         if request == module.I2C_FUNCS:
             argument.value = 0x0EFF0009
         elif request == module.I2C_RDWR:
@@ -142,7 +144,7 @@ def kernel(wire: Wire, module):
         elif request == module.I2C_SMBUS:
             smbus(argument)
 
-    def smbus(call):
+    def smbus(call: Any) -> None:
         data, block = call.data.contents, call.size == module.I2C_SMBUS_I2C_BLOCK_DATA
         if call.read_write == module.I2C_SMBUS_WRITE:
             sent = bytes(data.block[1 : data.block[0] + 1]) if block else bytes([data.byte])

@@ -2,7 +2,7 @@ from pathlib import Path
 
 import pytest
 
-from zteleop.drivers import DRIVERS, open_driver
+from zteleop.drivers import DRIVERS, open_driver, tick_us
 from zteleop.drivers.pca9685 import Pca9685
 from zteleop.drivers.simulated import SimulatedSettings
 from zteleop.errors import ConfigError
@@ -46,3 +46,9 @@ def test_every_driver_of_the_table_says_what_settings_it_obeys() -> None:
 
     for module in DRIVERS.values():
         assert "frequency_hz" in import_module(module).SETTINGS.__struct_fields__
+
+
+@pytest.mark.parametrize("name", DRIVERS)
+def test_the_tick_of_settings_is_known_before_the_chip_is_opened(name: str) -> None:
+    assert tick_us(name, {"frequency_hz": 50}) == pytest.approx(4.88)
+    assert tick_us(name, {"osc_hz": 26e6}) == pytest.approx(106 / 26)

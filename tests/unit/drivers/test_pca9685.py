@@ -9,7 +9,7 @@ from unit.drivers.wire import Wire
 
 from zteleop.drivers import pca9685
 from zteleop.drivers.chip import POWER_UP, Chip
-from zteleop.drivers.pca9685 import Pca9685, Pca9685Settings, open_driver, read_pulse_us
+from zteleop.drivers.pca9685 import Pca9685, Pca9685Settings, open_driver
 from zteleop.drivers.registers import ALL_LED_OFF_H, MODE1, MODE2, PRE_SCALE
 from zteleop.drivers.simulated import SimulatedI2C
 from zteleop.errors import ConfigError, DeviceError
@@ -82,11 +82,12 @@ def test_an_awake_chip_at_another_frequency_is_stopped_in_order(
     wire: Wire, driving: Pca9685, slept: list[float]
 ) -> None:
     slept.clear()
-    Pca9685(wire, Pca9685Settings(frequency_hz=50), slept.append).start(NEUTRAL)
+    driver = Pca9685(wire, Pca9685Settings(frequency_hz=50), slept.append)
+    driver.start(NEUTRAL)
     assert wire.log[:3] == [[(ALL_LED_OFF_H, b"\x10")], [(MODE1, b"\x30")], [(PRE_SCALE, b"\x79")]]
     assert slept[0] == pytest.approx(4096 * 102 / 25e6)
     assert wire.chip.memory[MODE1] == 0x20
-    assert read_pulse_us(wire.chip.memory, 0) == pytest.approx(307 * 4.88)
+    assert driver.read([0])[0] == pytest.approx(307 * 4.88)
 
 
 def test_a_restart_left_pending_is_taken_up(wire: Wire, driving: Pca9685) -> None:
@@ -145,13 +146,13 @@ def test_a_chip_that_is_not_there_says_who_is(wire: Wire, driver: Pca9685) -> No
         (0x0D, 0x11, "LED1_OFF_H reads 0x11, not 0x01"),
     ],
 )
-def test_a_chip_that_holds_something_else_is_refused(
-    wire: Wire, driver: Pca9685, register: int, value: int, words: str
-) -> None:
-    read = wire.read_i2c_block_data
-    wire.read_i2c_block_data = lambda address, place, length: (
-        [value] if place == register and wire.log[-1:] == [NEUTRAL_BLOCK] else read(address, place, length)
-    )
+def test_a_chip_that_holds_something_else_is_refused(register: int, value: int, words: str) -> None:
+    class Forgetful(Wire):
+        def read_i2c_block_data(self, address: int, place: int, length: int) -> list[int]:
+            forgot = place == register and self.log[-1:] == [NEUTRAL_BLOCK]
+            return [value] if forgot else super().read_i2c_block_data(address, place, length)
+
+    driver = Pca9685(Forgetful(), Pca9685Settings(), lambda _: None)
     with pytest.raises(DeviceError, match=rf"^the PCA9685 at 0x40 on /dev/i2c-1 does not hold .*\({words}\)"):
         driver.start(NEUTRAL)
 

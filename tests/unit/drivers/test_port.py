@@ -46,12 +46,15 @@ def test_verify_masks_restart_and_names_what_differs(wire: Wire, port: Port) -> 
         port.verify({MODE1: 0x30, MODE2: 0x14})
 
 
-@pytest.mark.parametrize(("channels", "transfers"), [(8, 1), (9, 1)])
-def test_a_long_run_is_still_one_transaction(wire: Wire, port: Port, channels: int, transfers: int) -> None:
+@pytest.mark.parametrize(("channels", "block_writes"), [(2, 1), (8, 1), (9, 0), (16, 0)])
+def test_a_run_is_one_transaction_and_a_block_write_while_that_is_long_enough(
+    wire: Wire, port: Port, channels: int, block_writes: int
+) -> None:
     port.set(MODE1, 0x20)
     wire.log.clear()
     port.write([(6, bytes([0, 0, 7, 0] * channels))])
-    assert len(wire.log) == transfers
+    assert len(wire.log) == 1
+    assert wire.block_writes == block_writes
     assert wire.chip.memory[6 + 4 * channels - 2] == 7
 
 

@@ -26,7 +26,7 @@ from zteleop.errors import ConfigError
     ],
 )
 def test_prescale_is_the_data_sheets(
-    frequency_hz: float, expected: float, real_hz: float, tick: float, ticks: list[int]
+    frequency_hz: float, expected: int, real_hz: float, tick: float, ticks: list[int]
 ) -> None:
     assert prescale(frequency_hz) == expected
     assert tick_us(expected) == pytest.approx(tick)
@@ -61,7 +61,7 @@ def test_other_channels_get_a_block_of_their_own() -> None:
     ]
 
 
-def image(led=(0, 0, 0x70, 0x01), mode1=0x20, pre_scale=101):
+def image(led: Sequence[int] = (0, 0, 0x70, 0x01), mode1: int = 0x20, pre_scale: int = 101) -> bytearray:
     registers = bytearray(POWER_UP)
     registers[MODE1], registers[PRE_SCALE] = mode1, pre_scale
     registers[0x0A:0x0E] = bytes(led)

@@ -78,10 +78,10 @@ def test_a_snapshot_waits_until_two_looks_agree() -> None:
     looks = [b"half", b"whole", b"whole", b"later"]
 
     class Memory:
-        def __getitem__(self, _):
+        def __getitem__(self, _: object) -> bytes:
             return looks.pop(0)
 
-    assert Registers(Memory()).snapshot() == b"whole"
+    assert Registers(Memory()).snapshot() == b"whole"  # type: ignore[arg-type]
 
 
 def test_a_second_actuator_is_refused_with_the_process_of_the_first(path: str) -> None:
