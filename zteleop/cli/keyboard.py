@@ -63,9 +63,10 @@ def painter(keyboard: Keyboard, robot: str, steps: Steps) -> Callable[[View], No
     trail: deque[tuple[float, float]] = deque(maxlen=TRAIL)
 
     def paint(view: View) -> None:
+        follow(trail, view)
         if keyboard.suspending:
             keyboard.suspend(clock.now())
-        follow(trail, view)
+            return
         terminal = keyboard.terminal
         columns, rows = terminal.size()
         dashboard = Dashboard(
