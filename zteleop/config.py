@@ -49,11 +49,11 @@ class Config(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def load(path: Path | None = None) -> Config:
-    """Return the settings of a file, by default of the first that `places` names.
+    """Return the settings of a file, by default of the first that is found.
 
     Raises ConfigError with the place and the reason of a mistake.
     """
-    path = path or next((place for place in places() if place.is_file()), None)
+    path = path or found()
     if path is None:
         return Config()
     try:
@@ -71,7 +71,7 @@ def parse(text: bytes) -> Config:
         return msgspec.convert(values, Config)
     except msgspec.ValidationError as error:
         raise ConfigError(_with_names(str(error), values)) from None
-    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
+    except (msgspec.DecodeError, ValueError, RecursionError) as error:
         raise ConfigError(f"not TOML: {error}") from None
 
 
@@ -79,6 +79,11 @@ def places() -> Iterator[Path]:
     """Yield where a config file is looked for, in order."""
     yield Path("config.toml")
     yield _xdg("XDG_CONFIG_HOME", ".config") / "config.toml"
+
+
+def found() -> Path | None:
+    """Return the first config file there is, if any that may be read."""
+    return next((place for place in places() if os.access(place, os.R_OK)), None)
 
 
 def own_name() -> str:
@@ -105,20 +110,22 @@ def _xdg(variable: str, default: str) -> Path:
 
 def _with_names(error: str, values: Any) -> str:
     """Name the table that msgspec writes as [...]: it is the one that fails alone."""
-    before, marker, after = error.partition("[...]")
-    if not marker:
-        return error
-    path = before.rpartition("$.")[2].split(".")
-    table = values
-    for part in path:
-        table = table[part]
-    for name, entry in table.items():
+    problem, _, path = error.rpartition(" - at `$.")
+    before, marker, after = path.partition("[...]")
+    parts = before.split(".")
+    for name, entry in _tables(values, parts).items() if marker else ():
         lone: dict[str, Any] = {name: entry}
-        for part in reversed(path):
+        for part in reversed(parts):
             lone = {part: lone}
         try:
             msgspec.convert(lone, Config)
         except msgspec.ValidationError as found:
-            if str(found).partition("[...]")[2] == after:
-                return f"{before}.{name}{after}"
+            if str(found) == error:
+                return f"{problem} - at `$.{before}.{name}{after}"
     return error
+
+
+def _tables(values: Any, parts: list[str]) -> dict[str, Any]:
+    for part in parts:
+        values = values.get(part) if isinstance(values, dict) else None
+    return values if isinstance(values, dict) else {}

@@ -60,7 +60,7 @@ def decode(payload: bytes, encoding: str, accepted: dict[str, Decoder]) -> Messa
 def decode_any(payload: bytes, encoding: str) -> Any:
     """Return bytes of any type as plain values; raises MessageError when they cannot be read."""
     kind = MESSAGES.get(encoding.removeprefix(_JSON))
-    if kind:
+    if kind and encoding.startswith(_JSON):
         return msgspec.to_builtins(decode(payload, encoding, decoders([kind])))
     if len(payload) > MAX_BYTES:
         raise MessageError(f"{len(payload)} bytes of {encoding!r}")

@@ -3,9 +3,9 @@
 import json
 import os
 import time
-from typing import Literal
+from typing import Annotated, Literal
 
-from msgspec import Struct
+from msgspec import Meta, Struct
 
 from zteleop.errors import BusError, ConfigError
 
@@ -32,7 +32,7 @@ class BusSettings(Struct, frozen=True, forbid_unknown_fields=True):
     """endpoints such as tcp/pi.local:7447, besides what multicast finds"""
     listen: list[str] = []
     multicast: bool = True
-    patience: float = 3.0
+    patience: Annotated[float, Meta(ge=0, le=3600)] = 3.0
     """s a client waits for its router"""
 
 

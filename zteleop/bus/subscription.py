@@ -123,6 +123,8 @@ class Pump(Generic[M]):
             except zenoh.ZError:
                 return
             self._emptied.clear()
+            if self._closed:  # the loop will not come for it any more
+                return
             self._loop.call_soon(self._empty)
             self._emptied.wait()
 

@@ -50,6 +50,8 @@ def _tuned(settings: Config, arguments: argparse.Namespace, tick_us: float) -> D
     values = msgspec.to_builtins(settings.drive)
     if arguments.pulse_duty is not None:
         values["limits"]["pulse_duty"] = arguments.pulse_duty
+    if arguments.neutral_offset and "throttle" not in values["servos"]:
+        raise ConfigError("--neutral-offset shifts the throttle's neutral, and this vehicle has no throttle")
     if arguments.neutral_offset:
         values["servos"]["throttle"]["neutral_us"] += arguments.neutral_offset * tick_us
     try:

@@ -15,8 +15,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> None:
     path = arguments.file or arguments.config
     settings = config.load(path)
-    found = path or next((place for place in config.places() if place.is_file()), None)
-    print(f"{found or 'no config file: the built-in simulated car'}: good\n{_summary(settings)}")
+    what = path or config.found() or "no config file: the built-in simulated car"
+    print(f"{what}: good\n{_summary(settings)}")
 
 
 def _summary(settings: Config) -> str:

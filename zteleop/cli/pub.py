@@ -24,7 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("values", nargs="?", default="{}", help="YAML: '{linear: {x: 0.2}}'; the rest is 0")
     parser.add_argument("-r", "--rate", metavar="HZ", type=_positive, default=1.0, help="default: 1")
     parser.add_argument("-1", "--once", action="store_true", help="say it once and end")
-    parser.add_argument("-t", "--times", metavar="N", type=int, help="say it N times and end")
+    parser.add_argument("-t", "--times", metavar="N", type=_count, help="say it N times and end")
 
 
 def run(arguments: argparse.Namespace) -> None:
@@ -56,17 +56,20 @@ def _say(node: Node, publisher: Publisher[Message], message: Message, rate: floa
     try:
         node.spin()
     finally:
-        if times is None and publisher.sender:
-            publisher.publish(_rest(message, node.heard().vehicle))
+        rest = _rest(message, node.heard().vehicle) if times is None and publisher.sender else None
+        if rest:
+            publisher.publish(rest)
 
 
-def _rest(message: Message, vehicle: Vehicle | None) -> Message:
-    """Return the neutral command of the same type; of pulses, 0 is none."""
-    if isinstance(message, Pwm | Int16MultiArray) and vehicle:
-        pwm = neutral_pwm(vehicle)
-        neutral = [pwm.steering_ticks, pwm.throttle_ticks]
-        return pwm if isinstance(message, Pwm) else Int16MultiArray(message.layout, neutral)
-    return type(message).zero()
+def _rest(message: Message, vehicle: Vehicle | None) -> Message | None:
+    """Return the neutral command of the same type, if there is one; of pulses, 0 is none."""
+    if not isinstance(message, Pwm | Int16MultiArray):
+        return type(message).zero()
+    if vehicle is None or vehicle.kind != "ackermann":
+        return None
+    pwm = neutral_pwm(vehicle)
+    neutral = [pwm.steering_ticks, pwm.throttle_ticks]
+    return pwm if isinstance(message, Pwm) else Int16MultiArray(message.layout, neutral)
 
 
 def _wait(node: Node, publisher: Publisher[Message], command: bool) -> None:
@@ -93,6 +96,12 @@ def _yaml(text: str) -> Any:
         raise MessageError(
             f"expected YAML such as '{{linear: {{x: 0.2}}}}', found {text!r}: {problem}"
         ) from None
+
+
+def _count(text: str) -> int:
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"say it at least once, found {text}")
+    return int(text)
 
 
 def _positive(text: str) -> float:

@@ -2,12 +2,13 @@
 
 from collections.abc import Mapping
 from difflib import get_close_matches
-from typing import Any, TypeVar
+from typing import Any, TypeVar, get_args, get_origin
 
 import msgspec
 
 from zteleop.errors import MessageError
 from zteleop.messages import Message
+from zteleop.messages.message import field_types, zero_of
 
 M = TypeVar("M", bound=Message)
 
@@ -17,21 +18,34 @@ def fill(kind: type[M], values: object) -> M:
 
     Raises MessageError with the path of what does not fit, and the nearest names.
     """
-    filled = _merge(msgspec.to_builtins(kind.zero()), {} if values is None else values, kind.__name__)
+    filled = _fill(kind, {} if values is None else values, kind.__name__)
     try:
         return msgspec.convert(filled, kind)
     except msgspec.ValidationError as error:
         raise MessageError(f"not a {kind.__name__}: {error}") from None
 
 
-def _merge(zero: Any, values: object, path: str) -> Any:
-    if not isinstance(zero, dict):
-        return values
+def _fill(kind: Any, values: object, path: str) -> Any:
+    if isinstance(kind, type) and issubclass(kind, Message):
+        return _fill_fields(kind, values, path)
+    if get_origin(kind) is list and isinstance(values, list):
+        (item,) = get_args(kind)
+        return [_fill(item, value, f"{path}[{index}]") for index, value in enumerate(values)]
+    return values
+
+
+def _fill_fields(kind: type[Message], values: object, path: str) -> dict[str, Any]:
+    fields = field_types(kind)
     if not isinstance(values, Mapping):
-        raise MessageError(f"expected {{{', '.join(zero)}}} at {path}, found {values!r}")
+        raise MessageError(f"expected {{{', '.join(fields)}}} at {path}, found {values!r}")
     for name in values:
-        if name not in zero:
-            near = get_close_matches(str(name), zero, 1)
-            hint = f"did you mean {near[0]}?" if near else f"known: {', '.join(zero)}"
+        if name not in fields:
+            near = get_close_matches(str(name), fields, 1)
+            hint = f"did you mean {near[0]}?" if near else f"known: {', '.join(fields)}"
             raise MessageError(f"{path} has no field {name!r}; {hint}")
-    return {name: _merge(old, values.get(name, old), f"{path}.{name}") for name, old in zero.items()}
+    return {
+        name: _fill(field, values[name], f"{path}.{name}")
+        if name in values
+        else msgspec.to_builtins(zero_of(field))
+        for name, field in fields.items()
+    }

@@ -1,6 +1,8 @@
 """What an actuator obeys and what it says of itself."""
 
-from typing import ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
+
+from msgspec import Meta
 
 from zteleop.messages.geometry import Twist
 from zteleop.messages.message import Message
@@ -23,7 +25,7 @@ class Beat(Message):
 
     ros_type: ClassVar[str] = "zteleop_msgs/msg/Beat"
 
-    epoch: int
+    epoch: Annotated[int, Meta(ge=0, lt=2**53)]
     time: float
 
 

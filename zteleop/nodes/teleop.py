@@ -109,8 +109,8 @@ class Teleop:
             self._epoch = epoch
             self._device.reset(now)
         if vehicle and vehicle != self._vehicle:
-            self._vehicle = vehicle
             self._device.fit(vehicle)
+            self._vehicle = vehicle
 
     def _view(self, now: float, stick: Stick, command: Twist | Pwm | None) -> View:
         status = self._statuses.newest()

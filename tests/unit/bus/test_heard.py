@@ -1,0 +1,82 @@
+import pytest
+from unit.bus.fakes import Clock, Ring, sample
+
+from zteleop.bus import codec, heard
+from zteleop.bus.heard import Heard
+from zteleop.bus.subscription import Subscription
+from zteleop.control.drive import DriveSettings
+from zteleop.control.report import describe
+from zteleop.messages import Beat, Vehicle
+
+CAR = describe(DriveSettings(), 4.08)
+
+
+@pytest.fixture
+def beats() -> Ring:
+    return Ring()
+
+
+@pytest.fixture
+def vehicles() -> Ring:
+    return Ring()
+
+
+@pytest.fixture
+def robot(beats: Ring, vehicles: Ring, clock: Clock) -> Heard:
+    return Heard(
+        Subscription(beats, codec.decoders([Beat]), pytest.fail),
+        Subscription(vehicles, codec.decoders([Vehicle]), pytest.fail),
+    )
+
+
+@pytest.fixture
+def naps(clock: Clock, monkeypatch: pytest.MonkeyPatch) -> list[float]:
+    """Each nap taken; the clock goes on, the test does not wait."""
+    naps: list[float] = []
+    monkeypatch.setattr(heard.time, "sleep", lambda seconds: (naps.append(seconds), clock.pass_by(seconds)))
+    return naps
+
+
+def test_at_first_nothing_is_known(robot: Heard) -> None:
+    robot.listen()
+    assert (robot.beat, robot.at, robot.vehicle) == (None, float("-inf"), None)
+
+
+def test_the_beat_that_arrived_last_counts(robot: Heard, beats: Ring, clock: Clock) -> None:
+    beats.samples += [sample(Beat(1, 5.0)), sample(Beat(1, 5.05))]
+    robot.listen()
+    assert (robot.beat, robot.at) == (Beat(1, 5.05), clock.time)
+
+
+def test_silence_changes_neither_the_beat_nor_when_it_was_heard(
+    robot: Heard, beats: Ring, clock: Clock
+) -> None:
+    beats.samples.append(sample(Beat(1, 5.0)))
+    robot.listen()
+    clock.pass_by(3.0)
+    robot.listen()
+    assert (robot.beat, robot.at) == (Beat(1, 5.0), clock.time - 3.0)
+
+
+def test_what_a_robot_says_of_itself_stays_known(robot: Heard, vehicles: Ring) -> None:
+    vehicles.samples.append(sample(CAR))
+    assert robot.vehicle == CAR
+    assert robot.vehicle == CAR
+
+
+def test_it_waits_until_the_first_beat(robot: Heard, beats: Ring, clock: Clock, naps: list[float]) -> None:
+    beats.samples.append(sample(Beat(1, 5.0)))
+    robot.wait()
+    assert robot.beat == Beat(1, 5.0)
+    assert len(naps) <= 1
+
+
+def test_it_waits_for_a_robot_that_is_not_there_once_and_not_for_ever(
+    robot: Heard, clock: Clock, naps: list[float]
+) -> None:
+    start = clock.time
+    robot.wait()
+    assert clock.time == pytest.approx(start + heard.PATIENCE, abs=0.01)
+    naps.clear()
+    robot.wait()
+    assert naps == []

@@ -1,0 +1,230 @@
+"""Time is what the test says: where the loop would wait, the clock goes on."""
+
+import os
+import select
+from collections.abc import Callable, Iterator
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from unit.bus.fakes import Clock
+
+from zteleop.bus.loop import FAR, LONGEST_WAIT, Loop, Timer
+
+real_select = select.select
+
+
+def nothing() -> None:
+    pass
+
+
+@pytest.fixture
+def waits(clock: Clock, monkeypatch: pytest.MonkeyPatch) -> list[float]:
+    """How long the loop waited, without having waited."""
+    waits: list[float] = []
+
+    def wait(read: list[int], write: list[int], error: list[int], timeout: float) -> tuple:
+        waits.append(timeout)
+        ready = real_select(read, write, error, 0)
+        if not ready[0]:
+            clock.pass_by(timeout)
+        return ready
+
+    monkeypatch.setattr(select, "select", wait)
+    return waits
+
+
+@pytest.fixture
+def loop(waits: list[float]) -> Iterator[Loop]:
+    loop = Loop(before_each=nothing)
+    yield loop
+    loop.close()
+
+
+@pytest.fixture
+def pipe() -> Iterator[tuple[int, int]]:
+    ends = os.pipe()
+    yield ends
+    for end in ends:
+        os.close(end)
+
+
+def test_a_timer_fires_at_once_and_then_on_its_schedule(loop: Loop, clock: Clock) -> None:
+    start, times = clock.time, []
+    loop.every(0.1, lambda: times.append(clock.time - start))
+    loop.run(until=start + 0.45)
+    assert times == pytest.approx([0.0, 0.1, 0.2, 0.3, 0.4])
+    assert clock.time == pytest.approx(start + 0.45)
+
+
+def test_what_an_action_takes_does_not_shift_the_schedule(loop: Loop, clock: Clock) -> None:
+    start, times = clock.time, []
+
+    def work() -> None:
+        times.append(clock.time - start)
+        clock.pass_by(0.03)
+
+    loop.every(0.1, work)
+    loop.run(until=start + 0.45)
+    assert times == pytest.approx([0.0, 0.1, 0.2, 0.3, 0.4])
+
+
+def test_missed_ticks_are_not_made_up_for(loop: Loop, clock: Clock) -> None:
+    start, times = clock.time, []
+
+    def work() -> None:
+        times.append(clock.time - start)
+        clock.pass_by(0.35 if len(times) == 1 else 0.0)
+
+    loop.every(0.1, work)
+    loop.run(until=start + 0.55)
+    assert times == pytest.approx([0.0, 0.35, 0.4, 0.5])
+
+
+@given(st.floats(0.001, 100), st.floats(0, 1e6), st.floats(0, 1e4))
+def test_the_next_tick_lies_ahead_by_at_most_a_period(period: float, due: float, late: float) -> None:
+    timer = Timer(period, nothing, due)
+    timer.reschedule(due + late)
+    assert due + late - 1e-6 <= timer.due <= due + late + period + 1e-6
+    ticks = (timer.due - due) / period
+    assert ticks == pytest.approx(round(ticks), abs=1e-4)
+
+
+def test_two_timers_keep_their_own_time(loop: Loop, clock: Clock) -> None:
+    ticks = []
+    loop.every(0.1, lambda: ticks.append("fast"))
+    loop.every(0.25, lambda: ticks.append("slow"))
+    loop.run(until=clock.time + 0.55)
+    assert (ticks.count("fast"), ticks.count("slow")) == (6, 3)
+
+
+def test_an_alarm_fires_once_whenever_it_is_set(loop: Loop, clock: Clock) -> None:
+    start, times = clock.time, []
+    alarm = loop.alarm(lambda: times.append(clock.time - start))
+    loop.run(until=start + 1)
+    assert times == []
+    for due in (1.5, 2.5):
+        alarm.due = start + due
+        loop.run(until=start + due + 0.5)
+        assert alarm.due == FAR
+    assert times == pytest.approx([1.5, 2.5])
+
+
+def test_actions_run_in_the_order_they_were_called_in_each_after_a_look_around(waits: list[float]) -> None:
+    done: list[str] = []
+    loop = Loop(before_each=lambda: done.append("look"))
+    for name in "abc":
+        loop.call_soon(lambda name=name: done.append(name))
+    loop.run_once()
+    assert done == ["look", "a", "look", "b", "look", "c"]
+    assert waits == [0]
+    loop.close()
+
+
+def test_an_action_called_by_an_action_waits_its_turn(loop: Loop) -> None:
+    done = []
+    loop.call_soon(lambda: (done.append("first"), loop.call_soon(lambda: done.append("later"))))
+    loop.run_once()
+    assert done == ["first"]
+    loop.run_once()
+    assert done == ["first", "later"]
+
+
+def test_an_action_that_calls_itself_starves_no_timer(loop: Loop, clock: Clock) -> None:
+    ticks = []
+
+    def again() -> None:
+        clock.pass_by(0.01)
+        loop.call_soon(again)
+
+    loop.call_soon(again)
+    loop.every(0.1, lambda: ticks.append(clock.time))
+    loop.run(until=clock.time + 0.55)
+    assert len(ticks) == 6
+
+
+def test_a_timer_made_by_a_timer_fires_too(loop: Loop, clock: Clock) -> None:
+    done = []
+    loop.alarm(lambda: loop.every(1.0, lambda: done.append("inner"))).due = clock.time
+    loop.run(until=clock.time + 0.5)
+    assert done == ["inner"]
+
+
+def test_however_often_it_is_rung_the_bell_is_heard_once(loop: Loop) -> None:
+    done = []
+    for number in range(10_000):
+        loop.call_soon(lambda number=number: done.append(number))
+    assert real_select([loop._ear], [], [], 0)[0]
+    loop.run_once()
+    assert done == list(range(10_000))
+    assert not real_select([loop._ear], [], [], 0)[0]
+    loop.call_soon(nothing)
+    assert real_select([loop._ear], [], [], 0)[0]
+
+
+def test_a_file_that_can_be_read_runs_its_action_until_it_is_read(loop: Loop, pipe: tuple[int, int]) -> None:
+    ear, mouth = pipe
+    heard: list[bytes] = []
+    loop.watch(ear, lambda: heard.append(os.read(ear, 1)))
+    loop.run_once()
+    assert heard == []
+    os.write(mouth, b"ab")
+    for _ in range(3):
+        loop.run_once()
+    assert heard == [b"a", b"b"]
+
+
+def test_a_file_no_longer_watched_is_left_alone(loop: Loop, pipe: tuple[int, int]) -> None:
+    loop.watch(pipe[0], pytest.fail)
+    os.write(pipe[1], b"a")
+    loop.unwatch(pipe[0])
+    loop.unwatch(pipe[0])
+    loop.run_once()
+
+
+def test_an_action_may_end_the_watch_of_a_file_that_is_ready(loop: Loop, pipe: tuple[int, int]) -> None:
+    loop.watch(pipe[0], pytest.fail)
+    os.write(pipe[1], b"a")
+    loop.call_soon(lambda: loop.unwatch(pipe[0]))
+    loop.run_once()
+
+
+def test_stop_ends_the_run_after_the_action_at_hand(loop: Loop, clock: Clock) -> None:
+    done = []
+    loop.call_soon(lambda: (loop.stop(), done.append("at hand")))
+    loop.call_soon(lambda: done.append("next"))
+    loop.every(0.1, lambda: done.append("tick"))
+    loop.run()
+    assert done == ["at hand"]
+
+
+def test_stop_wakes_a_loop_that_waits(loop: Loop) -> None:
+    loop.stop()
+    assert real_select([loop._ear], [], [], 0)[0]
+
+
+def test_with_nothing_to_do_it_waits_but_not_for_ever(loop: Loop, waits: list[float]) -> None:
+    loop.run_once()
+    assert waits == [LONGEST_WAIT]
+
+
+def test_it_never_waits_beyond_the_time_given(loop: Loop, clock: Clock, waits: list[float]) -> None:
+    loop.every(10.0, nothing)
+    loop.run(until=clock.time + 2.5)
+    assert max(waits) == pytest.approx(2.5)
+
+
+def test_a_time_that_has_passed_runs_nothing(loop: Loop, clock: Clock) -> None:
+    loop.every(0.1, pytest.fail)
+    loop.run(until=clock.time)
+
+
+def test_an_error_ends_the_run_and_the_rest_waits_for_the_next(loop: Loop) -> None:
+    done: list[str] = []
+    fails: Callable[[], object] = lambda: 1 / 0  # noqa: E731
+    loop.call_soon(fails)
+    loop.call_soon(lambda: done.append("next"))
+    with pytest.raises(ZeroDivisionError):
+        loop.run_once()
+    loop.run_once()
+    assert done == ["next"]

@@ -1,0 +1,219 @@
+"""A node on a session that is none: what it declares, resolves and refuses. Its travels are system tests."""
+
+from collections.abc import Iterator
+
+import pytest
+import zenoh
+from unit.bus.fakes import Clock, Session, ZenohPublisher, sample
+
+from zteleop.bus import codec, presence
+from zteleop.bus.heard import Heard
+from zteleop.bus.node import Node
+from zteleop.errors import ConfigError
+from zteleop.messages import Beat, Int16MultiArray, Log, Odometry, Pwm, String, Twist, TwistStamped
+
+
+@pytest.fixture
+def session(clock: Clock, monkeypatch: pytest.MonkeyPatch) -> Session:
+    monkeypatch.setattr(Heard, "wait", Heard.listen)
+    return Session()
+
+
+@pytest.fixture
+def node(session: Session) -> Iterator[Node]:
+    with Node("nose", "archangel", session=session) as node:
+        yield node
+
+
+@pytest.fixture
+def stranger(session: Session) -> Iterator[Node]:
+    with Node("nose", session=session) as node:
+        yield node
+
+
+def said(session: Session, key: str) -> ZenohPublisher:
+    return session.publishers[key][0]
+
+
+def test_a_node_of_a_robot_is_present_and_can_speak(node: Node, session: Session) -> None:
+    assert presence.holders(session, "archangel", "nose") == [presence.process()]
+    assert list(session.publishers) == ["robot/archangel/log"]
+
+
+def test_a_node_without_a_robot_is_nobodys(stranger: Node, session: Session) -> None:
+    assert session.alive.keys == []
+    stranger.log.warn("smells odd")
+    assert session.publishers == {}
+
+
+@pytest.mark.parametrize("name", ["", "a/b", "*", "-a", "a b"])
+def test_a_nodes_name_is_checked_before_it_joins(name: str) -> None:
+    with pytest.raises(ConfigError, match="a node's name is made of"):
+        Node(name)
+
+
+def test_a_robots_name_is_checked_before_it_joins() -> None:
+    with pytest.raises(ConfigError, match="a robot's name is"):
+        Node("nose", "*")
+
+
+def test_with_leaves_the_bus(session: Session) -> None:
+    def fail() -> None:
+        with Node("nose", session=session):
+            raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        fail()
+    assert session.closed
+
+
+@pytest.mark.parametrize(
+    ("topic", "source", "key"),
+    [
+        ("cmd_vel", "program", "robot/archangel/cmd_vel/program"),
+        ("cmd_vel_stamped", "keyboard", "robot/archangel/cmd_vel/keyboard"),
+        ("/zoe/cmd_vel", "web", "robot/zoe/cmd_vel/web"),
+        ("cmd_vel/nav", "web", "robot/archangel/cmd_vel/nav"),
+    ],
+)
+def test_a_command_goes_out_under_its_source(
+    node: Node, session: Session, topic: str, source: str, key: str
+) -> None:
+    node.publisher(topic, Twist, source=source)
+    assert key in session.publishers
+
+
+def test_commands_overtake_and_everything_may_be_dropped(node: Node, session: Session) -> None:
+    node.publisher("pwm", (Pwm, Int16MultiArray))
+    node.publisher("odom", Odometry)
+    command, plain = (session.publishers[f"robot/archangel/{path}"][1] for path in ("pwm/program", "odom"))
+    assert (command["priority"], command["express"]) == (zenoh.Priority.REAL_TIME, True)
+    assert (plain["priority"], plain["express"]) == (zenoh.Priority.DATA, False)
+    assert all(qos["congestion_control"] == zenoh.CongestionControl.DROP for qos in (command, plain))
+
+
+def test_each_publisher_of_commands_is_a_sender_of_its_own(node: Node) -> None:
+    assert node.publisher("odom", Odometry).sender == ""
+    senders = {node.publisher("cmd_vel", Twist, source=f"s{n}").sender for n in range(3)}
+    assert len(senders) == 3
+    assert "" not in senders
+
+
+def test_a_type_that_a_topic_does_not_take_is_refused_by_name(node: Node) -> None:
+    with pytest.raises(ConfigError, match=r"^cmd_vel takes TwistStamped or Twist, found Twist, Pwm$"):
+        node.publisher("cmd_vel", (Twist, Pwm))
+
+
+def test_a_topic_of_no_table_takes_any_type(node: Node, session: Session) -> None:
+    node.publisher("chatter", String).publish(String("hello"))
+    (put,) = said(session, "robot/archangel/chatter").puts
+    assert (put.payload, put.attachment) == (b'{"data":"hello"}', None)
+
+
+@pytest.mark.parametrize("source", ["*", "a/b", "", "**", "a b"])
+def test_a_source_is_one_part_of_a_key(node: Node, source: str) -> None:
+    with pytest.raises(ConfigError, match="a source is made of"):
+        node.publisher("cmd_vel", Twist, source=source)
+
+
+@pytest.mark.parametrize("topic", ["*", "cmd_vel/**", "*/odom", "robot/**"])
+def test_no_wildcard_reaches_a_key(node: Node, topic: str) -> None:
+    for declare in (node.publisher, node.subscription):
+        with pytest.raises(ConfigError):
+            declare(topic, Twist)
+
+
+@pytest.mark.parametrize(
+    ("topic", "key"),
+    [
+        ("cmd_vel", "robot/archangel/cmd_vel/**"),
+        ("controls", "robot/archangel/pwm/**"),
+        ("cmd_vel/web", "robot/archangel/cmd_vel/web"),
+        ("/zoe/odom", "robot/zoe/odom"),
+    ],
+)
+def test_the_plain_name_of_a_command_means_all_its_sources(
+    node: Node, session: Session, topic: str, key: str
+) -> None:
+    node.subscription(topic, (TwistStamped, Twist))
+    assert list(session.rings) == [key]
+
+
+def test_what_a_node_publishes_and_hears_is_told(node: Node, session: Session) -> None:
+    node.publisher("odom", Odometry)
+    node.subscription("cmd_vel", (TwistStamped, Twist))
+    told = {(end.kind, end.node, end.type, end.topic) for end in presence.endpoints(session)}
+    assert told == {
+        ("pub", "nose", "rcl_interfaces/msg/Log", "log"),
+        ("pub", "nose", "nav_msgs/msg/Odometry", "odom"),
+        ("sub", "nose", "geometry_msgs/msg/TwistStamped", "cmd_vel/**"),
+    }
+
+
+def test_what_is_dropped_is_said_once_a_second_for_each_key(
+    node: Node, session: Session, capsys: pytest.CaptureFixture[str]
+) -> None:
+    inbox = node.subscription("odom", Odometry)
+    session.rings["robot/archangel/odom"].samples += [sample(String("x"), "robot/archangel/odom")] * 5
+    assert inbox.newest() is None
+    assert inbox.dropped == 5
+    logs = said(session, "robot/archangel/log").puts
+    assert len(logs) == 1
+    log = codec.decode(logs[0].payload, logs[0].encoding, codec.decoders([Log]))
+    words = "robot/archangel/odom: dropped: expected nav_msgs/msg/Odometry, found 'std_msgs/msg/String'"
+    assert log.msg == words
+    assert capsys.readouterr().err == f"nose: warning: {words}\n"
+
+
+@pytest.mark.parametrize("period", [0, -1.0, float("nan")])
+def test_a_timer_needs_a_period(node: Node, period: float) -> None:
+    with pytest.raises(ConfigError, match="a timer's period must be more than 0 s, found"):
+        node.every(period)
+
+
+def test_every_and_stop(node: Node, clock: Clock) -> None:
+    ticks = []
+
+    @node.every(1e-9)
+    def tick() -> None:
+        clock.pass_by(0.1)
+        ticks.append(clock.time)
+        if len(ticks) == 3:
+            node.stop()
+
+    node.spin()
+    assert len(ticks) == 3
+
+
+def test_an_alarm_rings_in_spin(node: Node, clock: Clock) -> None:
+    node.alarm(node.stop).due = clock.time
+    node.spin()
+
+
+def test_what_is_heard_of_a_robot_is_heard_once(node: Node, session: Session) -> None:
+    assert node.heard() is node.heard("archangel")
+    assert node.heard("zoe") is not node.heard()
+    assert set(session.rings) == {f"robot/{r}/{t}" for r in ("archangel", "zoe") for t in ("beat", "vehicle")}
+
+
+def test_without_a_robot_nobody_is_heard(stranger: Node) -> None:
+    with pytest.raises(ConfigError, match=r"node nose has no robot; say Node\('nose', robot=\.\.\.\)"):
+        stranger.heard()
+
+
+def test_a_handlers_command_echoes_the_beat_heard_before_it_began(node: Node, session: Session) -> None:
+    """What a slow handler decides must not pass for newer than what it saw."""
+    publisher = node.publisher("cmd_vel", Twist)
+    beats = session.rings["robot/archangel/beat"].samples
+    beats.append(sample(Beat(1, 5.0)))
+
+    def handle() -> None:
+        beats.append(sample(Beat(1, 6.0)))
+        publisher.publish(Twist.planar(0.5))
+        node.stop()
+
+    node._loop.call_soon(handle)
+    node.spin()
+    publisher.publish(Twist.planar(0.5))
+    puts = said(session, "robot/archangel/cmd_vel/program").puts
+    assert [codec.unpack_proof(put.attachment).beat for put in puts] == [5.0, 6.0]

@@ -1,0 +1,82 @@
+import os
+
+import pytest
+import zenoh
+from unit.bus.fakes import Session
+
+from zteleop.bus import presence
+from zteleop.bus.names import Name, resolve
+from zteleop.bus.presence import Endpoint
+from zteleop.messages import Message, Pwm, Twist, TwistStamped
+
+
+@pytest.mark.parametrize("kind", ["pub", "sub"])
+@pytest.mark.parametrize(
+    ("name", "types", "told"),
+    [
+        (resolve("archangel/odom", None), (), ("any", "odom")),
+        (resolve("archangel/pwm/web", None), (Pwm,), ("zteleop_msgs/msg/Pwm", "pwm/web")),
+        (
+            Name("archangel", "cmd_vel/**"),
+            (TwistStamped, Twist),
+            ("geometry_msgs/msg/TwistStamped", "cmd_vel/**"),
+        ),
+    ],
+)
+def test_what_a_node_tells_of_itself_is_read_back(
+    kind: presence.Kind, name: Name, types: tuple[type[Message], ...], told: tuple[str, str]
+) -> None:
+    key = presence.endpoint_key(name, kind, "nose", types)
+    assert presence.endpoints(Session([key])) == [
+        Endpoint("archangel", kind, "nose", presence.process(), *told)
+    ]
+
+
+def test_no_token_is_a_wildcard() -> None:
+    key = presence.endpoint_key(Name("archangel", "cmd_vel/**"), "sub", "nose", [Twist])
+    assert "*" not in key
+    assert str(zenoh.KeyExpr(key)) == key
+
+
+def test_a_process_is_its_host_and_number(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(presence.socket, "gethostname", lambda: "pi.local/é*" + "x" * 100)
+    assert presence.process() == f"pi-local---{'x' * 21}-{os.getpid()}"
+
+
+def test_endpoints_are_told_once_and_in_order() -> None:
+    keys = [
+        presence.endpoint_key(resolve(topic, None), "pub", "nose", [Twist])
+        for topic in ("zoe/odom", "abe/odom", "abe/imu")
+    ]
+    found = presence.endpoints(Session(keys + keys))
+    assert [(end.robot, end.topic) for end in found] == [("abe", "imu"), ("abe", "odom"), ("zoe", "odom")]
+
+
+@pytest.mark.parametrize(
+    "key",
+    [
+        "robot/archangel/live/pub",
+        "robot/archangel/live/pub/nose",
+        "robot/archangel/live/sub/nose/host-1/any",
+        "robot/archangel/live/pub/nose/host-1/any/\x1b[2J",
+        "robot/\x1b[2J/live/pub/nose/host-1/any/odom",
+    ],
+)
+def test_a_strangers_token_is_left_out(key: str) -> None:
+    assert presence.endpoints(Session([key])) == []
+
+
+def test_robots_are_those_with_an_actuator() -> None:
+    keys = [presence.node_key(*who) for who in (("zoe", "actuator"), ("abe", "actuator"), ("bob", "camera"))]
+    assert presence.robots(Session(keys)) == ["abe", "zoe"]
+
+
+def test_holders_are_the_processes_of_one_node_of_one_robot() -> None:
+    keys = [
+        "robot/abe/live/node/actuator/pi-7",
+        "robot/abe/live/node/actuator/laptop-3",
+        "robot/abe/live/node/camera/pi-8",
+        "robot/zoe/live/node/actuator/pi-9",
+    ]
+    assert presence.holders(Session(keys), "abe", "actuator") == ["laptop-3", "pi-7"]
+    assert presence.holders(Session(), "abe", "actuator") == []

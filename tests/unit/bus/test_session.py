@@ -1,0 +1,149 @@
+import json
+from collections.abc import Callable
+from types import SimpleNamespace
+from typing import Any
+
+import msgspec
+import pytest
+import zenoh
+from unit.bus.fakes import Clock
+
+from zteleop.bus import session
+from zteleop.bus.session import ROBOT_ENDPOINT, SAME_MACHINE, BusSettings, open_session
+from zteleop.errors import BusError, ConfigError
+
+
+@pytest.fixture
+def opened(clock: Clock, monkeypatch: pytest.MonkeyPatch) -> Callable[..., list[zenoh.Config]]:
+    """Let zenoh.open give these results in turn, the last for ever; return the configurations tried."""
+
+    def prepare(*results: object) -> list[zenoh.Config]:
+        configs: list[zenoh.Config] = []
+
+        def open_(config: zenoh.Config) -> object:
+            configs.append(config)
+            result = results[min(len(configs), len(results)) - 1]
+            if isinstance(result, Exception):
+                raise result
+            return result
+
+        monkeypatch.setattr(zenoh, "open", open_)
+        monkeypatch.setattr(session.time, "monotonic", clock.now)
+        monkeypatch.setattr(session.time, "sleep", clock.pass_by)
+        return configs
+
+    return prepare
+
+
+def value(config: zenoh.Config, key: str) -> Any:
+    return json.loads(config.get_json(key))
+
+
+def configure(**settings: Any) -> Callable[[str], Any]:
+    config = session._configure(BusSettings(**settings), False)
+    return lambda key: value(config, key)
+
+
+def test_on_an_open_network_everybody_is_a_peer_who_looks_around() -> None:
+    get = configure()
+    assert get("mode") == "peer"
+    assert get("scouting/multicast/enabled") is True
+    assert get("connect/endpoints") == [SAME_MACHINE]
+    assert get("connect/exit_on_failure") is False
+
+
+def test_what_section_4_decides_is_configured() -> None:
+    get = configure()
+    assert get("transport/shared_memory/enabled") is False
+    assert get("transport/link/tx/lease") == 1000
+    assert get("scouting/delay") == 0
+
+
+def test_named_endpoints_are_the_only_ones() -> None:
+    get = configure(connect=["tcp/pi.local:7447"], listen=["tcp/127.0.0.1:0"])
+    assert get("connect/endpoints") == ["tcp/pi.local:7447"]
+    assert get("listen/endpoints") == ["tcp/127.0.0.1:0"]
+
+
+@pytest.mark.parametrize("settings", [{"multicast": False}, {"mode": "client"}, {"mode": "router"}])
+def test_who_does_not_look_around_knocks_nowhere(settings: dict[str, Any]) -> None:
+    assert configure(**settings)("connect/endpoints") == []
+
+
+def test_a_client_fails_at_once_so_that_our_own_loop_retries() -> None:
+    get = configure(mode="client", connect=["tcp/pi.local:7447"])
+    assert get("connect/exit_on_failure") is True
+    assert get("connect/timeout_ms") == 0
+
+
+def test_a_robot_starts_even_when_its_usual_port_is_taken() -> None:
+    assert configure(listen=[ROBOT_ENDPOINT])("listen/exit_on_failure") is False
+    assert configure(listen=["tcp/127.0.0.1:7448"])("listen/exit_on_failure") is True
+
+
+def test_only_who_settles_waits_for_others(opened: Callable[..., list[zenoh.Config]]) -> None:
+    alone = SimpleNamespace(info=SimpleNamespace(peers_zid=list, routers_zid=list))
+    configs = opened(alone)
+    assert open_session(BusSettings()) is alone
+    assert open_session(BusSettings(), settle=True) is alone
+    assert [value(config, "scouting/delay") for config in configs] == [0, 500]
+
+
+def test_it_settles_when_nobody_new_has_been_found_for_a_while(
+    opened: Callable[..., list[zenoh.Config]], clock: Clock
+) -> None:
+    start = clock.time
+    found = SimpleNamespace(
+        peers_zid=lambda: ["a", "b"] if clock.time > start + 0.05 else ["a"],
+        routers_zid=lambda: ["r"] if clock.time > start + 0.1 else [],
+    )
+    opened(SimpleNamespace(info=found))
+    open_session(BusSettings(), settle=True)
+    assert clock.time == pytest.approx(start + 0.16, abs=0.02)
+
+
+def test_a_client_waits_for_its_router(opened: Callable[..., list[zenoh.Config]], clock: Clock) -> None:
+    start = clock.time
+    configs = opened(zenoh.ZError("nobody"), zenoh.ZError("nobody"), "a session")
+    assert open_session(BusSettings(mode="client")) == "a session"
+    assert len(configs) == 3
+    assert clock.time == pytest.approx(start + 0.2)
+
+
+def test_a_client_gives_up_in_words(opened: Callable[..., list[zenoh.Config]], clock: Clock) -> None:
+    start = clock.time
+    opened(zenoh.ZError("Unable to connect at /root/zenoh/x.rs:1"))
+    with pytest.raises(BusError) as error:
+        open_session(BusSettings(mode="client", connect=["tcp/a:1", "tcp/b:2"], patience=1.0))
+    assert str(error.value) == (
+        "no router found (tcp/a:1, tcp/b:2); is the robot on, and its address right? (Unable to connect)"
+    )
+    assert clock.time == pytest.approx(start + 1.0, abs=0.15)
+
+
+def test_a_peer_that_cannot_open_says_why_at_once(
+    opened: Callable[..., list[zenoh.Config]], clock: Clock
+) -> None:
+    start = clock.time
+    opened(zenoh.ZError("Address already in use at /root/zenoh/x.rs:1"))
+    with pytest.raises(BusError, match=r"^cannot open the bus: Address already in use$"):
+        open_session(BusSettings())
+    assert clock.time == start
+
+
+@pytest.mark.parametrize("field", ["connect", "listen"])
+def test_what_is_no_endpoint_is_refused_by_name(field: str) -> None:
+    with pytest.raises(ConfigError, match=rf"^bus: \['pi:7447'\] cannot be {field}/endpoints: "):
+        open_session(BusSettings(**{field: ["pi:7447"]}))
+
+
+@pytest.mark.parametrize("values", [{"mode": "boss"}, {"connect": "tcp/a:1"}, {"patience": "long"}, {"x": 1}])
+def test_settings_are_checked(values: dict[str, Any]) -> None:
+    with pytest.raises(msgspec.ValidationError):
+        msgspec.convert(values, BusSettings)
+
+
+def test_patience_is_a_time_that_can_pass() -> None:
+    """NaN never passes: a client would try for ever."""
+    with pytest.raises(msgspec.ValidationError):
+        msgspec.convert({"patience": float("nan")}, BusSettings)

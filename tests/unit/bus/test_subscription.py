@@ -1,0 +1,216 @@
+"""An inbox and its pump, with the ring in the test's hands and no thread."""
+
+import threading
+from collections.abc import Callable
+
+import pytest
+import zenoh
+from unit.bus.fakes import Clock, Ring, Sample, sample
+
+from zteleop.bus import codec
+from zteleop.bus.loop import Loop
+from zteleop.bus.subscription import Pump, Received, Subscription
+from zteleop.control.proof import Proof
+from zteleop.messages import Pwm, String
+
+PROOF = Proof(1, 2, 3, 4.0, 5.0, 6.0)
+
+
+class Inbox:
+    """A subscription to texts, its ring, and what it complained of."""
+
+    def __init__(self, *samples: Sample) -> None:
+        self.ring, self.complaints = Ring(*samples), []
+        self.subscription: Subscription[String] = Subscription(
+            self.ring, codec.decoders([String]), self.complaints.append
+        )
+
+    def read(self, sample: Sample) -> Received[String] | None:
+        return self.subscription.read(sample)
+
+
+@pytest.fixture
+def inbox(clock: Clock) -> Inbox:
+    return Inbox()
+
+
+def test_a_message_is_read_with_its_key_and_when_it_was(inbox: Inbox, clock: Clock) -> None:
+    received = inbox.read(sample(String("hello"), "robot/archangel/cmd_vel/web"))
+    assert received == (String("hello"), "robot/archangel/cmd_vel/web", None, clock.time)
+    assert received.source == "web"
+    assert (inbox.subscription.dropped, inbox.complaints) == (0, [])
+
+
+def test_a_proof_is_read_from_the_attachment(inbox: Inbox) -> None:
+    assert inbox.read(sample(String("x"), attachment=codec.pack_proof(PROOF))).proof == PROOF
+
+
+@pytest.mark.parametrize("attachment", [None, b"", b"a letter", bytes(49)])
+def test_any_other_attachment_is_no_proof(inbox: Inbox, attachment: bytes | None) -> None:
+    assert inbox.read(sample(String("x"), attachment=attachment)).proof is None
+    assert inbox.complaints == []
+
+
+@pytest.mark.parametrize(
+    ("bad", "words"),
+    [
+        (Sample(b'{"data":"x"}', kind=zenoh.SampleKind.DELETE), "a delete or a wildcard is no message"),
+        (Sample(b'{"data":"x"}', key="robot/*/chatter"), "a delete or a wildcard is no message"),
+        (Sample(b'{"data":"x"}', key="robot/**"), "a delete or a wildcard is no message"),
+        (sample(Pwm(1, 2)), "expected std_msgs/msg/String, found 'zteleop_msgs/msg/Pwm'"),
+        (Sample(b"{}"), "not a std_msgs/msg/String: Object missing required field `data`"),
+        (
+            Sample(b'{"data":"x"}', encoding="zenoh/bytes"),
+            "expected std_msgs/msg/String, found",
+        ),
+    ],
+    ids=["delete", "one wildcard", "all wildcards", "another type", "no such message", "no encoding"],
+)
+def test_what_is_no_message_is_dropped_counted_and_said(inbox: Inbox, bad: Sample, words: str) -> None:
+    for count in (1, 2):
+        assert inbox.read(bad) is None
+        assert inbox.subscription.dropped == count
+        assert inbox.complaints[-1].startswith(f"{bad.key_expr}: dropped: {words}")
+
+
+def test_take_empties_the_ring_and_leaves_out_what_is_no_message() -> None:
+    inbox = Inbox(sample(String("a")), Sample(b"{}"), sample(String("b")))
+    assert [received.message.data for received in inbox.subscription.take()] == ["a", "b"]
+    assert inbox.subscription.dropped == 1
+    assert not inbox.ring.samples
+
+
+def test_newest_is_the_last_since_the_last_look() -> None:
+    inbox = Inbox(sample(String("a")), sample(String("b")))
+    assert inbox.subscription.newest() == String("b")
+    assert inbox.subscription.newest() is None
+
+
+def test_a_bad_message_does_not_hide_the_one_before() -> None:
+    inbox = Inbox(sample(String("a")), Sample(b"{}"))
+    assert inbox.subscription.newest() == String("a")
+
+
+def test_iteration_ends_with_the_session() -> None:
+    inbox = Inbox(sample(String("a")), Sample(b"{}"), sample(String("b")))
+    assert list(inbox.subscription) == [String("a"), String("b")]
+
+
+class Event:
+    """A threading.Event that tells instead of waiting."""
+
+    def __init__(self) -> None:
+        self.is_set = False
+        self.waited = 0
+
+    def set(self) -> None:
+        self.is_set = True
+
+    def clear(self) -> None:
+        self.is_set = False
+
+    def wait(self) -> None:
+        self.waited += 1
+        assert self.is_set, "waits for ever"
+
+
+class Thread:
+    """A thread whose work is done when the test says so."""
+
+    def __init__(self, target: Callable[[], None], daemon: bool) -> None:
+        assert daemon
+        self.run, self.started = target, False
+
+    def start(self) -> None:
+        self.started = True
+
+    def join(self) -> None:
+        pass
+
+
+@pytest.fixture
+def threads(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(threading, "Thread", Thread)
+    monkeypatch.setattr(threading, "Event", Event)
+
+
+class Obedient:
+    """A loop that runs at once what it is called for."""
+
+    def __init__(self) -> None:
+        self.looked = 0
+
+    def call_soon(self, action: Callable[[], object]) -> None:
+        action()
+
+    def before_each(self) -> None:
+        self.looked += 1
+
+
+@pytest.mark.usefixtures("threads", "clock")
+class TestPump:
+    def test_a_sample_that_wakes_the_pump_is_handled_in_the_loop(self) -> None:
+        inbox, heard = Inbox(sample(String("a"))), []
+        loop = Loop(before_each=lambda: heard.append("look"))
+        pump = Pump(inbox.subscription, lambda received: heard.append(received.message.data), 10, loop)
+        assert pump._thread.started
+        with pytest.raises(AssertionError, match="waits for ever"):
+            pump._thread.run()
+        assert heard == []
+        inbox.ring.samples.append(sample(String("b")))
+        loop.run_once()
+        assert heard == ["look", "a", "look", "b", "look"]
+        assert pump._emptied.is_set
+        loop.close()
+
+    def test_a_flood_costs_the_loop_a_bounded_share(self) -> None:
+        inbox, heard = Inbox(*(sample(String(str(number))) for number in range(9))), []
+        pump = Pump(inbox.subscription, lambda received: heard.append(received.message.data), 4, Obedient())
+        pump._sample = inbox.ring.recv()
+        pump._empty()
+        assert heard == ["0", "1", "2", "3"]
+        assert len(inbox.ring.samples) == 5
+
+    def test_what_is_no_message_counts_too(self) -> None:
+        inbox, heard = Inbox(*[Sample(b"{}")] * 9), []
+        pump = Pump(inbox.subscription, heard.append, 4, Obedient())
+        pump._sample = inbox.ring.recv()
+        pump._empty()
+        assert (heard, inbox.subscription.dropped) == ([], 4)
+
+    def test_it_goes_round_until_the_session_is_closed(self) -> None:
+        inbox, heard = Inbox(*(sample(String(str(number))) for number in range(9))), []
+        Pump(
+            inbox.subscription, lambda received: heard.append(received.message.data), 4, Obedient()
+        )._thread.run()
+        assert heard == [str(number) for number in range(9)]
+
+    def test_an_error_in_a_handler_does_not_end_the_pump(self) -> None:
+        inbox = Inbox(sample(String("a")))
+        pump = Pump(inbox.subscription, lambda received: 1 / 0, 4, Obedient())
+        pump._sample = inbox.ring.recv()
+        with pytest.raises(ZeroDivisionError):
+            pump._empty()
+        assert pump._emptied.is_set
+
+    def test_after_a_close_it_waits_for_nobody(self) -> None:
+        inbox = Inbox()
+        pump = Pump(inbox.subscription, pytest.fail, 4, Obedient())
+        pump.close()
+        pump._thread.run()
+
+    def test_a_close_just_after_a_sample_came_does_not_hang(self) -> None:
+        """Node.close closes the session, then each pump: the last sample may be in the pump's hand."""
+        inbox = Inbox(sample(String("a")))
+        pump = Pump(inbox.subscription, pytest.fail, 4, Loop(before_each=pytest.fail))
+
+        def receive() -> Sample:
+            got = Ring.recv(inbox.ring)
+            pump.close()
+            return got
+
+        inbox.ring.recv = receive
+        try:
+            pump._thread.run()
+        finally:
+            pump._loop.close()

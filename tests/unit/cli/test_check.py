@@ -1,0 +1,44 @@
+from pathlib import Path
+
+import pytest
+
+from zteleop.cli.run import run_verb
+
+ROOT = Path(__file__).parents[3]
+
+
+@pytest.fixture(autouse=True)
+def nowhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "none"))
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.mark.parametrize("arguments", [[str(ROOT / "config.toml")], ["--config", str(ROOT / "config.toml")]])
+def test_a_good_file_is_told_with_what_it_makes(
+    arguments: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run_verb("check", "check", arguments) == 0
+    out = capsys.readouterr().out
+    assert out.startswith(f"{ROOT / 'config.toml'}: good\n")
+    assert "vehicle  ackermann, at most 3 m/s and 5.1 rad/s\n" in out
+    assert "steering channel 1: 1183 1530 1877 us = 290 375 460 ticks\n" in out
+    assert "throttle channel 0: 898 1510 2040 us = 220 370 500 ticks\n" in out
+    assert "sources  web 100, gamepad 95, keyboard 90, buttons 80, program 50\n" in out
+
+
+def test_without_a_file_it_says_what_is_built_in(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run_verb("check", "check", []) == 0
+    assert capsys.readouterr().out.startswith("no config file: the built-in simulated car: good\n")
+
+
+def test_the_file_found_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "config.toml").write_text("robot = 'archangel'\n")
+    assert run_verb("check", "check", []) == 0
+    assert capsys.readouterr().out.startswith("config.toml: good\nrobot    archangel\n")
+
+
+def test_a_bad_file_is_1_and_a_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "config.toml").write_text("[drive.servos.steering]\nchannel = 16\n")
+    assert run_verb("check", "check", []) == 1
+    words = "config.toml: Expected `int` <= 15 - at `$.drive.servos.steering.channel`"
+    assert capsys.readouterr() == ("", f"zteleop check: {words}\n")

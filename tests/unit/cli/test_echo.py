@@ -1,0 +1,58 @@
+import pytest
+import yaml
+import zenoh
+from unit.bus.fakes import Clock, Ring, Sample, sample
+
+from zteleop.cli import echo
+from zteleop.errors import BusError
+from zteleop.messages import String, Twist
+
+
+def test_a_message_is_printed_as_yaml_that_can_be_read_back(capsys: pytest.CaptureFixture[str]) -> None:
+    assert echo._print(sample(Twist.planar(0.5)), as_json=False)
+    out = capsys.readouterr().out
+    assert out.startswith("linear:\n  x: 0.5\n")
+    assert out.endswith("---\n")
+    (values, _) = yaml.safe_load_all(out)
+    assert values["angular"] == {"x": 0.0, "y": 0.0, "z": 0.0}
+
+
+def test_as_json_a_message_is_one_line(capsys: pytest.CaptureFixture[str]) -> None:
+    assert echo._print(sample(String("two\nlines")), as_json=True)
+    assert capsys.readouterr().out == '{"data":"two\\nlines"}\n'
+
+
+@pytest.mark.parametrize("text", ["\x1b[2J", "\x9b2J", "\x07"])
+def test_what_could_steer_a_terminal_is_escaped(text: str, capsys: pytest.CaptureFixture[str]) -> None:
+    echo._print(sample(String(text)), as_json=False)
+    assert text[0] not in capsys.readouterr().out
+
+
+def test_what_cannot_be_read_is_said_on_stderr_escaped(capsys: pytest.CaptureFixture[str]) -> None:
+    bad = Sample(b"\x00\x01", encoding="zenoh/bytes", key="robot/abe/\x1b[2J")
+    assert not echo._print(bad, as_json=False)
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.startswith("robot/abe/\\x1b[2J: 2 bytes of 'zenoh/bytes', not JSON")
+
+
+def test_a_delete_is_no_message(capsys: pytest.CaptureFixture[str]) -> None:
+    assert not echo._print(Sample(b"{}", kind=zenoh.SampleKind.DELETE), as_json=False)
+    assert capsys.readouterr() == ("", "")
+
+
+def test_it_gives_up_after_so_long_a_silence(clock: Clock, monkeypatch: pytest.MonkeyPatch) -> None:
+    start = clock.time
+    monkeypatch.setattr("time.monotonic", clock.now)
+    monkeypatch.setattr("time.sleep", clock.pass_by)
+    ring = Ring(sample(String("a")), sample(String("b")))
+    heard = []
+    with pytest.raises(BusError, match="nothing was said on robot/abe/odom for 2 s; zteleop list shows"):
+        heard.extend(iter(echo._samples(ring, 2.0, "robot/abe/odom")))
+    assert not ring.samples
+    assert clock.time == pytest.approx(start + 2.0, abs=0.01)
+
+
+def test_without_a_timeout_it_hears_until_the_end() -> None:
+    samples = [sample(String("a")), sample(String("b"))]
+    assert list(echo._samples(iter(samples), None, "key")) == samples

@@ -1,0 +1,95 @@
+import subprocess
+import sys
+from importlib import import_module
+from importlib.metadata import version
+from pathlib import Path
+
+import pytest
+
+import zteleop.cli
+from zteleop.cli import VERBS, main
+
+FILES = {path.stem for path in Path(zteleop.cli.__file__).parent.glob("*.py")}
+NO_VERBS = {"__init__", "run", "options"}
+
+
+@pytest.mark.parametrize("arguments", [[], ["-h"], ["--help"], ["--help", "demo"]])
+def test_help_lists_every_verb_with_what_it_does(
+    arguments: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(arguments) == 0
+    lines = capsys.readouterr().out.splitlines()
+    for verb, text in VERBS.items():
+        assert any(line.split() == [verb, *text.split()] for line in lines)
+
+
+def test_each_verb_is_one_file_and_each_file_one_verb() -> None:
+    assert set(VERBS) == FILES - NO_VERBS
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_every_verb_has_arguments_and_runs(verb: str) -> None:
+    module = import_module(f"zteleop.cli.{verb}")
+    assert callable(module.add_arguments)
+    assert callable(module.run)
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_every_verb_has_help_of_its_own(verb: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ending:
+        main([verb, "--help"])
+    assert ending.value.code == 0
+    out = " ".join(capsys.readouterr().out.split())
+    assert out.startswith(f"usage: zteleop {verb} ")
+    assert VERBS[verb][1:] in out
+
+
+@pytest.mark.parametrize("flag", ["-V", "--version"])
+def test_version_is_the_packages(flag: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([flag]) == 0
+    assert capsys.readouterr().out == f"zteleop {version('zteleop')}\n"
+
+
+@pytest.mark.parametrize(
+    ("verb", "words"),
+    [
+        ("keybord", "zteleop: no verb 'keybord'; did you mean keyboard?"),
+        ("ech", "zteleop: no verb 'ech'; did you mean echo?"),
+        ("fly", f"zteleop: no verb 'fly'; known: {', '.join(VERBS)}"),
+        ("--robot", "zteleop: no verb '--robot'; known: "),
+        ("\x1b[2J", "zteleop: no verb '\\x1b[2J'; known: "),
+        ("", "zteleop: no verb ''; known: "),
+    ],
+)
+def test_an_unknown_verb_is_a_usage_error_with_the_nearest(
+    verb: str, words: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([verb]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.startswith(words)
+    assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_an_unknown_option_is_a_usage_error(verb: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ending:
+        main([verb, "--no-such-option"])
+    assert ending.value.code == 2
+    assert capsys.readouterr().err.startswith(f"usage: zteleop {verb} ")
+
+
+def test_without_arguments_it_reads_those_of_the_process(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(sys, "argv", ["zteleop", "fly"])
+    assert main() == 2
+
+
+def test_help_costs_neither_zenoh_nor_msgspec() -> None:
+    code = (
+        "import sys; from zteleop.cli import main; assert main(['--help']) == 0; assert main(['fly']) == 2; "
+        "print(*{'zenoh', 'msgspec', 'yaml'} & set(sys.modules), file=sys.stderr)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stderr.splitlines()[1:] == [""]

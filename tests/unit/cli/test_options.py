@@ -1,0 +1,130 @@
+import argparse
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from unit.bus.fakes import Session
+
+from zteleop import config
+from zteleop.bus import presence
+from zteleop.bus.session import BusSettings
+from zteleop.cli import options
+from zteleop.config import Config
+from zteleop.errors import ConfigError
+
+
+@pytest.fixture(autouse=True)
+def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    for variable in ("XDG_CONFIG_HOME", "XDG_STATE_HOME"):
+        monkeypatch.setenv(variable, str(tmp_path / "user"))
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def parse(*arguments: str) -> argparse.Namespace:
+    parser = argparse.ArgumentParser()
+    options.add(parser)
+    return parser.parse_args(arguments)
+
+
+def session(*robots: str) -> Any:
+    return Session([presence.node_key(robot, "actuator") for robot in robots])
+
+
+def test_nothing_typed_changes_nothing() -> None:
+    assert options.load(parse()) == Config()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "bus"),
+    [
+        (["-m", "client"], BusSettings(mode="client")),
+        (["--mode", "router"], BusSettings(mode="router")),
+        (["-e", "tcp/a:1", "--connect", "tcp/b:2"], BusSettings(connect=["tcp/a:1", "tcp/b:2"])),
+        (["-l", "tcp/[::]:7447", "--listen", "tcp/c:3"], BusSettings(listen=["tcp/[::]:7447", "tcp/c:3"])),
+        (["--no-multicast-scouting"], BusSettings(multicast=False)),
+    ],
+)
+def test_what_is_typed_stands_above_the_file(home: Path, arguments: list[str], bus: BusSettings) -> None:
+    (home / "config.toml").write_text("robot = 'archangel'\n")
+    assert options.load(parse(*arguments)) == Config(robot="archangel", bus=bus)
+
+
+def test_what_is_not_typed_stays_as_in_the_file(home: Path) -> None:
+    (home / "x.toml").write_text("robot = 'abe'\n[bus]\nmulticast = false\nconnect = ['tcp/a:1']\n")
+    settings = options.load(parse("--config", str(home / "x.toml"), "--robot", "zoe"))
+    assert settings == Config(robot="zoe", bus=BusSettings(connect=["tcp/a:1"], multicast=False))
+
+
+@pytest.mark.parametrize("arguments", [["--robot", "A b"], ["--robot", "*"], ["-m", "boss"]])
+def test_what_cannot_be_obeyed_is_a_usage_error(
+    arguments: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as ending:
+        parse(*arguments)
+    assert ending.value.code == 2
+    assert repr(arguments[1]) in capsys.readouterr().err
+
+
+def test_the_robot_meant_is_the_one_named() -> None:
+    assert options.find_robot(session("abe", "bob"), Config(robot="zoe")) == "zoe"
+
+
+def test_else_it_is_the_only_one_there() -> None:
+    assert options.find_robot(session("abe"), Config()) == "abe"
+
+
+def test_else_it_is_this_machines_own() -> None:
+    assert options.find_robot(session(), Config()) == config.own_name()
+
+
+def test_of_several_none_is_chosen() -> None:
+    with pytest.raises(ConfigError, match=r"^2 robots are on the bus: abe, bob; say --robot NAME$"):
+        options.find_robot(session("bob", "abe"), Config())
+
+
+@pytest.mark.parametrize(
+    ("topic", "selected", "robot"),
+    [
+        ("archangel/odom", None, "archangel"),
+        ("/archangel/odom", "zoe", "archangel"),
+        ("odom", "zoe", "zoe"),
+        ("odom", None, None),
+        ("cmd_vel/web", None, None),
+        ("*", "zoe", "zoe"),
+    ],
+)
+def test_the_robot_of_a_topic_is_the_one_it_says(topic: str, selected: str | None, robot: str | None) -> None:
+    assert options.robot_of(topic, Config(robot=selected)) == robot
+
+
+def test_a_robot_that_cannot_be_chosen_leaves_the_bus(monkeypatch: pytest.MonkeyPatch) -> None:
+    bus = session("abe", "bob")
+    monkeypatch.setattr(options, "open_session", lambda settings, settle: bus)
+    with pytest.raises(ConfigError, match="2 robots are on the bus"):
+        options.join("keyboard", Config())
+    assert bus.closed
+
+
+def test_only_without_a_name_it_settles_before_it_looks(monkeypatch: pytest.MonkeyPatch) -> None:
+    settles: list[bool] = []
+
+    def open_session(settings: BusSettings, settle: bool) -> Session:
+        settles.append(settle)
+        return session("abe")
+
+    monkeypatch.setattr(options, "open_session", open_session)
+    for robot in (None, "abe"):
+        with options.join("keyboard", Config(robot=robot)) as node:
+            assert node.robot == "abe"
+    assert settles == [True, False]
+
+
+@pytest.mark.parametrize("typed", [True, False])
+def test_a_child_ends_when_its_parent_does(typed: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    watched: dict[int, object] = {}
+    node = SimpleNamespace(watch=watched.__setitem__, stop="stop")
+    monkeypatch.setattr(options.sys, "stdin", SimpleNamespace(fileno=lambda: 5))
+    options.end_with_parent(argparse.Namespace(with_parent=typed), node)
+    assert watched == ({5: "stop"} if typed else {})

@@ -1,0 +1,111 @@
+import argparse
+import os
+import sys
+from collections.abc import Callable
+from types import SimpleNamespace
+
+import pytest
+
+from zteleop.bus import signals
+from zteleop.cli import run
+from zteleop.errors import BusError, ConfigError, DeviceError, MessageError
+
+Verb = Callable[..., int]
+
+
+@pytest.fixture
+def verb(monkeypatch: pytest.MonkeyPatch) -> Verb:
+    """Run a verb that ends as told, and return the exit code."""
+    undone: list[str] = []
+
+    def run_(ending: object = None, arguments: list[str] | None = None) -> int:
+        def act(options: argparse.Namespace) -> object:
+            if isinstance(ending, BaseException):
+                raise ending
+            return ending
+
+        def add_arguments(parser: argparse.ArgumentParser) -> None:
+            parser.add_argument("--speed", type=float)
+
+        module = SimpleNamespace(add_arguments=add_arguments, run=act)
+        monkeypatch.setattr(run, "import_module", {"zteleop.cli.fly": module}.__getitem__)
+        monkeypatch.setattr(signals, "unwind", lambda: lambda: undone.append("undone"))
+        try:
+            return run.run_verb("fly", "fly a kite", arguments or [])
+        finally:
+            assert undone == ["undone"]
+            undone.clear()
+
+    return run_
+
+
+@pytest.mark.parametrize(("ending", "code"), [(None, 0), (0, 0), (1, 1), (7, 7)])
+def test_what_a_verb_returns_is_the_exit_code(verb: Verb, ending: int | None, code: int) -> None:
+    assert verb(ending) == code
+
+
+@pytest.mark.parametrize("kind", [ConfigError, MessageError, BusError, DeviceError])
+def test_an_error_on_purpose_is_one_sentence_and_1(
+    verb: Verb, kind: type[Exception], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert verb(kind("expected wind, found none")) == 1
+    assert capsys.readouterr() == ("", "zteleop fly: expected wind, found none\n")
+
+
+def test_an_unexpected_error_is_one_sentence_that_owns_up(
+    verb: Verb, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert verb(ZeroDivisionError("division by zero")) == 1
+    words = "zteleop fly: ZeroDivisionError: division by zero (a bug; --debug shows where)\n"
+    assert capsys.readouterr() == ("", words)
+
+
+@pytest.mark.parametrize("error", [ConfigError("no wind"), KeyError("wind")])
+def test_debug_shows_where(verb: Verb, error: Exception) -> None:
+    with pytest.raises(type(error)) as found:
+        verb(error, ["--debug"])
+    assert found.value is error
+
+
+def test_ctrl_c_is_130_and_silent(verb: Verb, capsys: pytest.CaptureFixture[str]) -> None:
+    assert verb(KeyboardInterrupt()) == 130
+    assert capsys.readouterr() == ("", "")
+
+
+def test_a_signal_ends_with_its_own_code(verb: Verb) -> None:
+    with pytest.raises(SystemExit) as ending:
+        verb(SystemExit(143))
+    assert ending.value.code == 143
+
+
+def test_a_reader_that_left_is_no_error_to_talk_about(
+    verb: Verb, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    turned: list[tuple[bool, int]] = []
+
+    def dup2(source: int, target: int) -> None:
+        turned.append((os.path.samestat(os.fstat(source), os.stat(os.devnull)), target))
+        os.close(source)
+
+    devices = SimpleNamespace(open=os.open, devnull=os.devnull, O_WRONLY=os.O_WRONLY, dup2=dup2)
+    streams = SimpleNamespace(stdout=SimpleNamespace(fileno=lambda: 77), stderr=sys.stderr)
+    monkeypatch.setattr(run, "os", devices)
+    monkeypatch.setattr(run, "sys", streams)
+    assert verb(BrokenPipeError()) == 1
+    assert turned == [(True, 77)]
+    assert capsys.readouterr().err == ""
+
+
+def test_a_wrong_argument_is_a_usage_error(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ending:
+        run.run_verb("check", "check a config file", ["a", "b"])
+    assert ending.value.code == 2
+    assert "unrecognized arguments: b" in capsys.readouterr().err
+
+
+def test_a_verb_that_is_there_runs(capsys: pytest.CaptureFixture[str], tmp_path: os.PathLike[str]) -> None:
+    path = os.path.join(tmp_path, "config.toml")
+    with open(path, "w") as file:
+        file.write("speed = 1\n")
+    assert run.run_verb("check", "check a config file", [path]) == 1
+    assert capsys.readouterr().err == f"zteleop check: {path}: Object contains unknown field `speed`\n"

@@ -1,0 +1,81 @@
+from collections.abc import Iterator
+from typing import Any
+
+import msgspec
+import pytest
+
+from zteleop.interfaces.schema import DIALECT, schema, text
+from zteleop.messages import MESSAGES, Message, Odometry, Pwm, Twist
+
+KEYWORDS = {
+    "$defs",
+    "$ref",
+    "$schema",
+    "additionalProperties",
+    "anyOf",
+    "default",
+    "description",
+    "discriminator",
+    "enum",
+    "exclusiveMaximum",
+    "exclusiveMinimum",
+    "items",
+    "maxItems",
+    "maximum",
+    "minItems",
+    "minimum",
+    "properties",
+    "required",
+    "title",
+    "type",
+}
+"""Of draft 2020-12, and `discriminator`, which is OpenAPI's and a mere annotation here."""
+TYPES = {"array", "boolean", "integer", "null", "number", "object", "string"}
+
+
+def parts(node: Any) -> Iterator[dict[str, Any]]:
+    """Yield every schema in a schema."""
+    yield node
+    for key in ("properties", "$defs"):
+        for part in node.get(key, {}).values():
+            yield from parts(part)
+    for part in [*node.get("anyOf", []), *([node["items"]] if "items" in node else [])]:
+        yield from parts(part)
+
+
+@pytest.mark.parametrize(("name", "kind"), MESSAGES.items(), ids=MESSAGES)
+def test_every_message_has_a_schema_of_draft_2020_12(name: str, kind: type[Message]) -> None:
+    made = schema(kind, name)
+    assert (made["$schema"], made["title"]) == (DIALECT, name)
+    for part in parts(made):
+        assert part.keys() <= KEYWORDS
+        assert part.get("type", "null") in TYPES
+        if "$ref" in part:
+            assert part["$ref"].removeprefix("#/$defs/") in made["$defs"]
+    assert made["$ref"] == f"#/$defs/{kind.__name__}"
+
+
+@pytest.mark.parametrize(("name", "kind"), MESSAGES.items(), ids=MESSAGES)
+def test_every_field_is_told_and_required(name: str, kind: type[Message]) -> None:
+    told = schema(kind, name)["$defs"][kind.__name__]
+    assert told["type"] == "object"
+    assert list(told["properties"]) == told["required"] == list(kind.__struct_fields__)
+
+
+def test_what_a_message_is_made_of_is_told_once() -> None:
+    assert set(schema(Twist, "t")["$defs"]) == {"Twist", "Vector3"}
+    covariance = schema(Odometry, "o")["$defs"]["PoseWithCovariance"]["properties"]["covariance"]
+    assert (covariance["minItems"], covariance["maxItems"]) == (36, 36)
+
+
+def test_the_bounds_of_a_number_are_told() -> None:
+    ticks = schema(Pwm, "p")["$defs"]["Pwm"]["properties"]["throttle_ticks"]
+    assert (ticks["type"], ticks["minimum"], ticks["exclusiveMaximum"]) == ("integer", -(2**15), 2**15)
+
+
+def test_a_file_is_the_schema_always_in_the_same_order() -> None:
+    made = text(Twist, "geometry_msgs/msg/Twist")
+    assert msgspec.json.decode(made) == schema(Twist, "geometry_msgs/msg/Twist")
+    assert made.endswith("}\n")
+    keys = [line.split('"')[1] for line in made.splitlines() if line.startswith('  "')]
+    assert keys == sorted(keys)

@@ -1,0 +1,268 @@
+import pytest
+from unit.bus.fakes import Clock
+from unit.nodes.fakes import Node
+
+from zteleop.control.drive import DriveSettings
+from zteleop.control.mixer import Differential
+from zteleop.control.report import describe
+from zteleop.control.servo import Servo
+from zteleop.control.stick import Speeds, Stick
+from zteleop.errors import ConfigError
+from zteleop.messages import DriveStatus, Log, Odometry, Pwm, Twist, Vehicle
+from zteleop.nodes.teleop import LINK_LOSS, PERIOD, Teleop, View
+
+CAR = describe(DriveSettings(), 4.08)
+SLOW_CAR = describe(DriveSettings(), 4.1)
+TANK = describe(
+    DriveSettings(mixer=Differential(), servos={"left": Servo(channel=0), "right": Servo(channel=1)}), 4.08
+)
+NEUTRAL = Pwm(375, 370)
+
+
+class Device:
+    """An input whose stick and acts are what the test says."""
+
+    def __init__(self, drive: str = "hold") -> None:
+        self.drive, self.speeds, self.finished = drive, Speeds(), False
+        self.position, self.acted = Stick(), False
+        self.fitted: list[Vehicle] = []
+        self.resets: list[float] = []
+        self.file: int | None = None
+
+    def fileno(self) -> int | None:
+        return self.file
+
+    def fit(self, vehicle: Vehicle) -> None:
+        if self.drive == "step" and vehicle.kind != "ackermann":
+            raise ConfigError("driving in steps needs the channels steering and throttle")
+        self.fitted.append(vehicle)
+
+    def read(self, now: float) -> bool:
+        return self.acted
+
+    def stick(self, now: float) -> Stick:
+        return self.position
+
+    def reset(self, now: float) -> None:
+        self.resets.append(now)
+
+
+class Desk:
+    """One operator at one device."""
+
+    def __init__(self, node: Node, clock: Clock, device: Device, vehicle: Vehicle = CAR) -> None:
+        self.node, self.clock, self.device = node, clock, device
+        self.views: list[View] = []
+        self.teleop = Teleop(node, device, "keyboard", vehicle, self.views.append)
+        self.twists, self.pwms = node.said["cmd_vel"], node.said["pwm"]
+
+    def tick(self, times: int = 1, beats: bool = True) -> None:
+        for _ in range(times):
+            self.clock.pass_by(PERIOD)
+            if beats:
+                self.node.hear(self.clock.time)
+            self.teleop.obey()
+
+
+@pytest.fixture
+def desk(node: Node, clock: Clock) -> Desk:
+    return Desk(node, clock, Device())
+
+
+@pytest.fixture
+def steps(node: Node, clock: Clock) -> Desk:
+    return Desk(node, clock, Device("step"))
+
+
+def test_it_speaks_as_its_source(desk: Desk) -> None:
+    assert (desk.twists.topic, desk.pwms.topic) == ("cmd_vel/keyboard", "pwm/keyboard")
+    assert desk.device.fitted == [CAR]
+
+
+def test_an_idle_device_says_nothing(desk: Desk) -> None:
+    desk.tick(100)
+    assert desk.twists.messages == desk.pwms.messages == []
+
+
+def test_a_held_stick_is_said_at_every_tick(desk: Desk) -> None:
+    desk.device.position = Stick(1.0, 0.0, deadman=True)
+    desk.tick(5)
+    assert [said.twist for said in desk.twists.take()] == [Twist.planar(0.5)] * 5
+    assert desk.pwms.messages == []
+
+
+def test_a_lever_is_said_as_pulses(steps: Desk) -> None:
+    steps.device.position = Stick(1.0, -1.0, deadman=True)
+    steps.tick(2)
+    assert steps.pwms.take() == [Pwm(290, 500)] * 2
+    assert steps.twists.messages == []
+
+
+def test_neutral_is_said_three_times_and_then_nothing(desk: Desk, steps: Desk) -> None:
+    desk.device.position = Stick(1.0, 0.0, deadman=True)
+    desk.tick(3)
+    desk.twists.take()
+    desk.device.position = Stick()
+    desk.tick(10)
+    assert [said.twist for said in desk.twists.take()] == [Twist.planar()] * 3
+
+
+def test_neutral_of_levers_is_the_vehicles_own(steps: Desk) -> None:
+    steps.device.position = Stick(1.0, 0.0, deadman=True)
+    steps.tick()
+    steps.device.position = Stick()
+    steps.tick(10)
+    assert steps.pwms.take()[1:] == [NEUTRAL] * 3
+
+
+def test_whoever_drives_again_says_neutral_three_times_again(desk: Desk) -> None:
+    for stick, ticks in ((Stick(1.0, 0.0, True), 1), (Stick(), 2), (Stick(1.0, 0.0, True), 1), (Stick(), 9)):
+        desk.device.position = stick
+        desk.tick(ticks)
+    assert [said.twist.linear.x for said in desk.twists.take()] == [0.5, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0]
+
+
+def test_a_stick_held_at_rest_is_a_command(desk: Desk) -> None:
+    desk.device.position = Stick(0.0, 0.0, deadman=True)
+    desk.tick(10)
+    assert len(desk.twists.messages) == 10
+
+
+def test_only_what_the_operator_does_is_an_act(desk: Desk) -> None:
+    desk.device.position = Stick(1.0, 0.0, deadman=True)
+    desk.tick(20)
+    assert desk.twists.acts == desk.pwms.acts == 0
+    desk.device.acted = True
+    desk.tick(2)
+    assert desk.twists.acts == desk.pwms.acts == 2
+
+
+def test_a_robot_that_started_anew_finds_the_device_at_rest(desk: Desk, clock: Clock) -> None:
+    desk.tick(3)
+    desk.device.resets.clear()
+    desk.node.hear(clock.time, epoch=2)
+    desk.teleop.obey()
+    assert desk.device.resets == [clock.time]
+    desk.tick(0)
+    desk.teleop.obey()
+    assert len(desk.device.resets) == 1
+
+
+def test_after_two_seconds_without_a_beat_the_device_is_let_go_once(desk: Desk, clock: Clock) -> None:
+    desk.tick(3)
+    desk.device.resets.clear()
+    desk.tick(round(LINK_LOSS / PERIOD) - 1, beats=False)
+    assert desk.device.resets == []
+    desk.tick(20, beats=False)
+    assert len(desk.device.resets) == 1
+    desk.tick(20)
+    assert len(desk.device.resets) == 2
+
+
+def test_what_was_held_when_the_robot_restarted_is_not_said(desk: Desk, clock: Clock) -> None:
+    desk.device.position = Stick(1.0, 0.0, deadman=True)
+    desk.tick(3)
+    desk.twists.take()
+    desk.device.reset = lambda now: setattr(desk.device, "position", Stick())
+    desk.node.hear(clock.time, epoch=2)
+    desk.teleop.obey()
+    assert [said.twist for said in desk.twists.take()] == [Twist.planar()]
+
+
+def test_another_calibration_is_learnt_once(steps: Desk, clock: Clock) -> None:
+    steps.node.hear(clock.time, vehicle=SLOW_CAR)
+    steps.tick(3)
+    assert steps.device.fitted == [CAR, SLOW_CAR]
+    steps.device.position = Stick(1.0, 0.0, deadman=True)
+    steps.tick()
+    assert steps.pwms.take() == [Pwm(373, 498)]
+
+
+def test_run_obeys_on_a_clock_and_whenever_the_device_can_be_read(desk: Desk) -> None:
+    desk.device.file = 7
+    desk.teleop.run()
+    assert desk.node.timers == {PERIOD: desk.teleop.obey}
+    assert desk.node.watched == {7: desk.teleop.obey}
+
+
+def test_a_device_without_a_file_is_not_watched(desk: Desk) -> None:
+    desk.teleop.run()
+    assert desk.node.watched == {}
+
+
+@pytest.mark.parametrize("ending", [KeyboardInterrupt, SystemExit, ZeroDivisionError, None])
+def test_the_last_word_is_neutral_however_it_ends(desk: Desk, ending: type[BaseException] | None) -> None:
+    def spin() -> None:
+        desk.device.position = Stick(1.0, 0.0, deadman=True)
+        desk.tick(3)
+        if ending:
+            raise ending
+
+    desk.node.spin = spin
+    if ending:
+        with pytest.raises(ending):
+            desk.teleop.run()
+    else:
+        desk.teleop.run()
+    assert [said.twist.linear.x for said in desk.twists.take()] == [0.5, 0.5, 0.5, 0.0]
+    assert desk.twists.acts == 0
+
+
+def test_the_last_word_of_levers_is_neutral_too(steps: Desk) -> None:
+    steps.teleop.run()
+    assert steps.pwms.take() == [NEUTRAL]
+
+
+def test_it_ends_when_the_operator_has_enough(desk: Desk) -> None:
+    desk.tick()
+    assert not desk.node.stopped
+    desk.device.finished = True
+    desk.tick()
+    assert desk.node.stopped
+
+
+def test_a_robot_that_comes_back_as_another_kind_is_left_in_words_and_neutral(
+    steps: Desk, clock: Clock
+) -> None:
+    def spin() -> None:
+        steps.tick(3)
+        steps.node.hear(clock.time, epoch=2, vehicle=TANK)
+        steps.teleop.obey()
+
+    steps.node.spin = spin
+    with pytest.raises(ConfigError, match="driving in steps needs"):
+        steps.teleop.run()
+    assert steps.pwms.take()[-1:] == [NEUTRAL]
+
+
+def test_what_there_is_to_see_is_shown_at_every_tick(desk: Desk, clock: Clock) -> None:
+    status, odom = DriveStatus.zero(), Odometry.zero()
+    status.operator = desk.twists.sender
+    log = Log.zero()
+    log.name, log.msg = "actuator", "idle"
+    desk.node.inboxes["drive_status"].waiting.append(status)
+    desk.node.inboxes["odom"].waiting.append(odom)
+    desk.node.inboxes["log"].waiting.append(log)
+    desk.device.position = Stick(1.0, 0.0, deadman=True)
+    desk.tick(2)
+    view = desk.views[-1]
+    assert (view.now, view.vehicle, view.stick) == (clock.time, CAR, desk.device.position)
+    assert (view.status, view.ours, view.odom, view.note) == (status, True, odom, "actuator: idle")
+    assert view.command == Twist.planar(0.5)
+
+
+def test_a_status_long_unheard_is_no_status(desk: Desk) -> None:
+    desk.node.inboxes["drive_status"].waiting.append(DriveStatus.zero())
+    desk.tick(round(LINK_LOSS / PERIOD))
+    assert desk.views[-1].status is not None
+    desk.tick(2)
+    assert desk.views[-1].status is None
+
+
+@pytest.mark.parametrize(("operator", "ours"), [("", False), ("ff", False), ("1", True)])
+def test_the_robot_is_ours_when_it_says_so(desk: Desk, operator: str, ours: bool) -> None:
+    status = DriveStatus.zero()
+    status.operator = operator
+    desk.node.inboxes["drive_status"].waiting.append(status)
+    desk.tick()
+    assert desk.views[-1].ours is ours

@@ -1,0 +1,265 @@
+import os
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from zteleop import config
+from zteleop.config import Config, load, own_name, parse, places
+from zteleop.control.mixer import Differential
+from zteleop.errors import ConfigError
+
+ROOT = Path(__file__).parents[2]
+COMMENTED = re.compile(r"^# (?=\[|\w+ = )", re.MULTILINE)
+
+
+@pytest.fixture
+def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A user without settings, in an empty folder."""
+    for variable in ("XDG_CONFIG_HOME", "XDG_STATE_HOME"):
+        monkeypatch.delenv(variable, raising=False)
+    monkeypatch.setenv("HOME", str(tmp_path))
+    (tmp_path / "here").mkdir()
+    monkeypatch.chdir(tmp_path / "here")
+    return tmp_path
+
+
+def write(path: Path, text: str) -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text)
+    return path
+
+
+def refusal(text: str | bytes) -> str:
+    with pytest.raises(ConfigError) as error:
+        parse(text.encode() if isinstance(text, str) else text)
+    return str(error.value)
+
+
+def test_without_a_file_everything_is_built_in(home: Path) -> None:
+    assert load() == Config() == parse(b"")
+    assert (Config().robot, Config().driver, Config().bus.mode) == (None, "simulated", "peer")
+
+
+def test_the_repositorys_file_is_what_is_built_in() -> None:
+    shipped, built_in = parse((ROOT / "config.toml").read_bytes()), Config()
+    assert shipped.drive == built_in.drive
+    assert shipped.speeds == built_in.speeds
+    assert shipped.steps == built_in.steps
+    assert shipped.bus == built_in.bus
+    assert (shipped.robot, shipped.driver) == (built_in.robot, built_in.driver)
+    assert shipped.driver_settings("simulated", "a") == built_in.driver_settings("simulated", "a")
+
+
+def test_every_example_in_the_repositorys_file_can_be_obeyed() -> None:
+    text = (ROOT / "config.toml").read_text()
+    uncommented, count = COMMENTED.subn("", text)
+    assert count >= 6
+    settings = parse(uncommented.encode())
+    assert settings.robot == "archangel"
+    assert settings.bus.connect == ["tcp/pi.local:7447"]
+    assert settings.drive.sources["nav"].silence == 0.5
+
+
+def test_this_folder_comes_before_the_users(home: Path) -> None:
+    users = write(home / ".config/zteleop/config.toml", 'robot = "users"')
+    assert load().robot == "users"
+    write(home / "here/config.toml", 'robot = "here"')
+    assert load().robot == "here"
+    assert load(users).robot == "users"
+
+
+def test_the_users_folder_may_be_elsewhere(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(home / "elsewhere"))
+    assert list(places()) == [Path("config.toml"), home / "elsewhere/zteleop/config.toml"]
+    monkeypatch.setenv("XDG_CONFIG_HOME", "")
+    assert list(places())[1] == home / ".config/zteleop/config.toml"
+
+
+def test_a_mistake_is_told_with_its_file(home: Path) -> None:
+    path = write(home / "x.toml", "speed = 1")
+    with pytest.raises(ConfigError, match=f"^{re.escape(str(path))}: Object contains unknown field `speed`$"):
+        load(path)
+
+
+def test_a_file_that_cannot_be_read_is_told(home: Path) -> None:
+    with pytest.raises(ConfigError, match=r"^cannot read .*missing\.toml: No such file or directory$"):
+        load(home / "missing.toml")
+    with pytest.raises(ConfigError, match=r"^cannot read .*: Is a directory$"):
+        load(home)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("speed = 1", "Object contains unknown field `speed`"),
+        ("[drive.limits]\nspede = 1", "Object contains unknown field `spede` - at `$.drive.limits`"),
+        ("[speeds]\nforward = 'fast'", "Expected `float`, got `str` - at `$.speeds.forward`"),
+        ("[speeds]\nforward = 101", "Expected `float` <= 100.0 - at `$.speeds.forward`"),
+        ("[speeds]\nforward = nan", "Expected `float` >= 0.0 - at `$.speeds.forward`"),
+        ("[speeds]\nturn = inf", "Expected `float` <= 100.0 - at `$.speeds.turn`"),
+        ("[steps]\nthrottle_step_ticks = 0", "Expected `int` >= 1 - at `$.steps.throttle_step_ticks`"),
+        ("[drive.deadlines]\noperator = 5.1", "Expected `float` <= 5.0 - at `$.drive.deadlines.operator`"),
+        ("[drive.deadlines]\nmax_age = nan", "Expected `float` > 0.0 - at `$.drive.deadlines.max_age`"),
+        ("[drive.limits]\npulse_duty = nan", "Expected `float` > 0.0 - at `$.drive.limits.pulse_duty`"),
+        ("[drive.mixer]\nkind = 'boat'", "Invalid value 'boat' - at `$.drive.mixer.kind`"),
+        ("[bus]\nmode = 'boss'", "Invalid enum value 'boss' - at `$.bus.mode`"),
+        ("[bus]\nconnect = [1]", "Expected `str`, got `int` - at `$.bus.connect[0]`"),
+        ("driver = 'pca'", "no driver named 'pca'; known: pca9685, simulated"),
+        ("[drivers.pca]", "no driver named 'pca'; known: pca9685, simulated"),
+        ("[drivers.pca9685]\nport = 1", "drivers.pca9685: Object contains unknown field `port`"),
+        ("robot = 'Arch Angel'", "a robot's name is 1 to 63 of a-z, 0-9, _ and -, starting with"),
+        ("[drive.sources.'a/*']\npriority = 1", "a source is made of a-z, A-Z, 0-9, _ and -; found 'a/*'"),
+        ("a = ", "not TOML: "),
+        ("a = 1\na = 2", "not TOML: "),
+        (b"a = '\xff'", "not TOML: "),
+        ("a = " + "[" * 100_000, "not TOML: "),
+        ("a = 1" + "0" * 5000, "not TOML: "),
+    ],
+    ids=lambda value: repr(value)[:50],
+)
+def test_a_mistake_is_refused_with_its_place_and_reason(text: str | bytes, words: str) -> None:
+    assert refusal(text).startswith(words)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (
+            "[drive.servos.steering]\nchannel = 16",
+            "Expected `int` <= 15 - at `$.drive.servos.steering.channel`",
+        ),
+        ("[drive.servos.a]\nchanel = 1", "unknown field `chanel` - at `$.drive.servos.a`"),
+        (
+            "[drive.servos.good]\nchannel = 1\n[drive.servos.bad]\nchannel = 1\nmin_us = 'x'",
+            "Expected `float`, got `str` - at `$.drive.servos.bad.min_us`",
+        ),
+        ("[drive.servos]\nsteering = 5", "Expected `object`, got `int` - at `$.drive.servos.steering`"),
+        (
+            "[drive.servos.a]\nchannel = 1\nmin_us = 600\nneutral_us = 550",
+            "neutral_us must lie between min_us and max_us, found 600, 550, 2000 - at `$.drive.servos.a`",
+        ),
+        ("[drive.sources.nav]\npriority = 256", "Expected `int` <= 255 - at `$.drive.sources.nav.priority`"),
+        ("[drivers]\nsimulated = 5", "Expected `object`, got `int` - at `$.drivers.simulated`"),
+    ],
+)
+def test_a_mistake_in_a_table_of_names_is_told_by_its_name(text: str, words: str) -> None:
+    assert words in refusal(text)
+    assert "[...]" not in refusal(text)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "robot = '[...]'",
+        "'[...]' = 1",
+        "driver = '[...]'",
+        "[bus]\nmode = '[...]'",
+        "[drive.servos.a]\n'[...]' = 1",
+        "[drive.servos.'$.b']\nchannel = 16",
+    ],
+)
+def test_a_mistake_that_looks_like_a_place_is_refused_all_the_same(text: str) -> None:
+    assert refusal(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("[drive.mixer]\nkind = 'differential'", "servos must be left, right, found steering, throttle"),
+        ("[drive.servos.throttle]\nchannel = 0", "servos must be steering, throttle, found throttle"),
+        (
+            "[drive.servos.throttle]\nchannel = 3\n[drive.servos.steering]\nchannel = 3",
+            "each servo needs a channel of its own, found [3, 3]",
+        ),
+    ],
+)
+def test_an_impossible_vehicle_is_refused(text: str, words: str) -> None:
+    assert refusal(text) == f"{words} - at `$.drive`"
+
+
+def test_a_tank_is_two_servos() -> None:
+    text = "[drive.mixer]\nkind = 'differential'\ntrack = 0.3\n"
+    servos = "[drive.servos.left]\nchannel = 4\n[drive.servos.right]\nchannel = 5\n"
+    drive = parse((text + servos).encode()).drive
+    assert drive.mixer == Differential(track=0.3)
+    assert {name: servo.channel for name, servo in drive.servos.items()} == {"left": 4, "right": 5}
+
+
+def test_a_simulated_chip_is_named_after_its_robot_unless_its_path_is_set() -> None:
+    paths = {Config().driver_settings("simulated", robot)["path"] for robot in ("abe", "zoe")}
+    assert len(paths) == 2
+    set_ = parse(b"[drivers.simulated]\npath = '/tmp/chip'\n")
+    assert set_.driver_settings("simulated", "abe") == {"path": "/tmp/chip"}
+
+
+def test_a_real_chips_settings_are_its_own() -> None:
+    settings = parse(b"[drivers.pca9685]\nbus = 2\n")
+    assert settings.driver_settings("pca9685", "abe") == {"bus": 2}
+    assert Config().driver_settings("pca9685", "abe") == {}
+
+
+def test_a_robot_gets_a_name_of_its_own_and_keeps_it(home: Path) -> None:
+    name = own_name()
+    assert re.fullmatch(r"car-[0-9a-f]{4}", name)
+    assert own_name() == name
+    assert (home / ".local/state/zteleop/robot").read_text() == f"{name}\n"
+
+
+def test_two_robots_have_two_names(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    numbers = iter(["0001", "0002"])
+    monkeypatch.setattr(config.secrets, "token_hex", lambda size: next(numbers))
+    names = []
+    for folder in ("one", "two"):
+        monkeypatch.setenv("XDG_STATE_HOME", str(home / folder))
+        names.append(own_name())
+    assert names == ["car-0001", "car-0002"]
+
+
+def test_a_name_given_by_hand_is_kept(home: Path) -> None:
+    write(home / ".local/state/zteleop/robot", "archangel\n")
+    assert own_name() == "archangel"
+
+
+@pytest.mark.parametrize("text", ["", "Arch Angel", "a/b", "\ud800"])
+def test_a_kept_name_that_is_none_is_made_anew(home: Path, text: str) -> None:
+    path = write(home / ".local/state/zteleop/robot", "")
+    path.write_bytes(text.encode(errors="surrogatepass"))
+    name = own_name()
+    assert name.startswith("car-")
+    assert own_name() == name
+
+
+def test_where_no_name_can_be_kept_it_says_what_to_do(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("XDG_STATE_HOME", str(write(home / "file", "")))
+    with pytest.raises(ConfigError, match=r"cannot keep a robot's name in .*: .*; say --robot NAME$"):
+        own_name()
+
+
+def test_a_kept_name_that_may_not_be_read_says_what_to_do(
+    home: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*args: Any) -> None:
+        raise PermissionError(13, "Permission denied")
+
+    write(home / ".local/state/zteleop/robot", "archangel\n")
+    monkeypatch.setattr(Path, "read_text", refuse)
+    monkeypatch.setattr(Path, "write_text", refuse)
+    with pytest.raises(ConfigError, match=r"cannot keep a robot's name in .*: Permission denied; say"):
+        own_name()
+
+
+def test_a_place_that_may_not_be_looked_into_is_passed_by(
+    home: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A service's user with root's HOME."""
+    stat = os.stat
+
+    def refuse(path: Any, **options: Any) -> os.stat_result:
+        if str(path).endswith("config.toml"):
+            raise PermissionError(13, "Permission denied", str(path))
+        return stat(path, **options)
+
+    monkeypatch.setattr(os, "stat", refuse)
+    assert load() == Config()
