@@ -27,11 +27,12 @@ class Actuator:
         driver.start(self._neutral_us)
         self._drive = Drive(settings, driver.tick_us, _epoch(), clock.now())
         self._step = self._drive.step(clock.now())
-        self._stepped = self._written = clock.now()
+        self._written = clock.now()
         self._beats = node.publisher("beat", Beat)
         self._statuses = node.publisher("drive_status", DriveStatus)
         self._vehicles = node.publisher("vehicle", Vehicle)
-        self._soon = node.alarm(self._advance)
+        self._answered = float("-inf")
+        self._soon = node.alarm(self._answer)
 
     def run(self) -> None:
         """Drive until the node is stopped, then leave the chip at neutral."""
@@ -49,7 +50,7 @@ class Actuator:
             self._driver.close()
 
     def _receive(self, received: Received[Message]) -> None:
-        """Judge a command; when it counts, step now, or as soon as the last step is old enough."""
+        """Judge a command; when it counts, step at once, or as soon as the last answer is old enough."""
         now, source = received.at, received.source
         self._notice_pause(now)
         try:
@@ -60,10 +61,13 @@ class Actuator:
         refusal = self._drive.receive(source, command, received.proof, now)
         if refusal:
             self._node.log.warn(f"{received.key} is refused: {refusal}", f"{source} {refusal}")
-        elif now - self._stepped >= AT_MOST_EVERY:
-            self._advance()
         else:
-            self._soon.due = self._stepped + AT_MOST_EVERY
+            self._soon.due = max(now, self._answered + AT_MOST_EVERY)
+
+    def _answer(self) -> None:
+        """Step for what has arrived."""
+        self._answered = clock.now()
+        self._advance()
 
     def _advance(self) -> None:
         """Decide the pulses of now and write them."""
@@ -71,7 +75,7 @@ class Actuator:
         self._notice_pause(now)
         before, self._step = self._step, self._drive.step(now)
         self._driver.write(self._step.pulse_us)
-        self._stepped, self._written = now, clock.now()
+        self._written = clock.now()
         if self._step.state != before.state:
             self._node.log.info(f"{self._step.state}: {self._step.why}")
             self._tell_status()
