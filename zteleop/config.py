@@ -1,5 +1,6 @@
 """config.toml: the contents page of every other module's settings, and where it is found."""
 
+import contextlib
 import os
 import secrets
 from collections.abc import Iterator
@@ -82,30 +83,32 @@ def places() -> Iterator[Path]:
 
 
 def found() -> Path | None:
-    """Return the first config file there is, if any that may be read."""
-    return next((place for place in places() if os.access(place, os.R_OK)), None)
+    """Return the first config file there is, if any."""
+    return next((place for place in places() if os.path.isfile(place)), None)
 
 
 def own_name() -> str:
     """Return this machine's robot name, made and kept at the first call."""
     file = _xdg("XDG_STATE_HOME", ".local/state") / "robot"
     try:
-        return robot_name(file.read_text().strip())
-    except (OSError, ConfigError, UnicodeDecodeError):
-        name = f"car-{secrets.token_hex(2)}"
-    try:
         file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(name + "\n")
+        with contextlib.suppress(FileExistsError), file.open("x") as new:  # of two at once one makes it
+            new.write(f"car-{secrets.token_hex(2)}\n")
+        return robot_name(file.read_text().strip())
     except OSError as error:
         raise ConfigError(
             f"cannot keep a robot's name in {file}: {error.strerror}; say --robot NAME"
         ) from None
-    return name
+    except (ConfigError, UnicodeDecodeError) as error:
+        raise ConfigError(f"{file} holds no robot's name ({error}); remove it, or say --robot NAME") from None
 
 
 def _xdg(variable: str, default: str) -> Path:
     folder = os.environ.get(variable)
-    return (Path(folder) if folder else Path.home() / default) / "zteleop"
+    try:
+        return (Path(folder) if folder else Path.home() / default) / "zteleop"
+    except RuntimeError:
+        raise ConfigError(f"this user has no home folder; set {variable}") from None
 
 
 def _with_names(error: str, values: Any) -> str:

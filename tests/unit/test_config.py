@@ -263,3 +263,18 @@ def test_a_place_that_may_not_be_looked_into_is_passed_by(
 
     monkeypatch.setattr(os, "stat", refuse)
     assert load() == Config()
+
+
+def test_a_file_that_is_there_but_may_not_be_read_is_told(
+    home: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Passed by, a robot would drive with a calibration that is not its own."""
+
+    def refuse(path: Path) -> bytes:
+        raise PermissionError(13, "Permission denied", str(path))
+
+    write(home / "here/config.toml", "robot = 'archangel'")
+    monkeypatch.setattr(os, "access", lambda path, mode: False)
+    monkeypatch.setattr(Path, "read_bytes", refuse)
+    with pytest.raises(ConfigError, match=r"^cannot read config\.toml: Permission denied$"):
+        load()

@@ -43,8 +43,8 @@ def chunk(text: str, what: str) -> str:
 
 def resolve(text: str, robot: str | None) -> Name:
     """Return what a topic's name stands for; raises ConfigError when it says no robot or is no name."""
-    parts = text.removeprefix("robot/").strip("/").split("/")
     absolute = text.startswith(("/", "robot/"))
+    parts = text.removeprefix("/").removeprefix("robot/").rstrip("/").split("/")
     if not absolute and (len(parts) == 1 or _known(parts[0])):
         if robot is None:
             raise ConfigError(f"topic {text!r} names no robot; say ROBOT/{text} or --robot ROBOT")

@@ -45,8 +45,9 @@ class Publisher(Generic[M]):
 
     def publish(self, message: M) -> None:
         """Say a message, as an act; raises MessageError when it is of another type or not finite."""
+        encoding, payload = self._encode(message)
         self.act()
-        self.repeat(message)
+        self._put(message, encoding, payload)
 
     def act(self) -> None:
         """Note that the operator acted."""
@@ -56,11 +57,16 @@ class Publisher(Generic[M]):
 
     def repeat(self, message: M) -> None:
         """Say a message without a new act."""
+        self._put(message, *self._encode(message))
+
+    def _encode(self, message: M) -> tuple[zenoh.Encoding, bytes]:
         encoding = self._encodings.get(type(message))
         if encoding is None:
             expected = " or ".join(kind.__name__ for kind in self._encodings)
             raise MessageError(f"expected {expected}, found {type(message).__name__}")
-        payload = codec.encode(message)
+        return encoding, codec.encode(message)
+
+    def _put(self, message: M, encoding: zenoh.Encoding, payload: bytes) -> None:
         self._publisher.put(payload, encoding=encoding, attachment=self._proof(message))
 
     def _proof(self, message: M) -> bytes | None:

@@ -1,5 +1,6 @@
 """What you type. One file per verb, one line below."""
 
+import os
 import sys
 
 VERBS = {
@@ -26,7 +27,18 @@ zteleop VERB --help tells more. Start with: zteleop demo
 
 def main(argv: list[str] | None = None) -> int:
     """Run one verb; return 0 done, 1 error, 2 usage, 130 Ctrl-C, 143 SIGTERM."""
-    arguments = sys.argv[1:] if argv is None else argv
+    try:
+        code = _run(sys.argv[1:] if argv is None else argv)
+        sys.stdout.flush()
+        return code
+    except KeyboardInterrupt:
+        return 130
+    except BrokenPipeError:  # whoever read is gone: what is left to say goes nowhere, quietly
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+
+
+def _run(arguments: list[str]) -> int:
     if not arguments or arguments[0] in ("-h", "--help"):
         print(USAGE.format(verbs="\n".join(f"  {verb:10} {text}" for verb, text in VERBS.items())), end="")
         return 0

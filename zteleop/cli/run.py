@@ -1,7 +1,6 @@
 """Runs one verb: its arguments, its errors in one sentence, its exit code."""
 
 import argparse
-import os
 import sys
 from importlib import import_module
 
@@ -19,11 +18,8 @@ def run_verb(verb: str, text: str, arguments: list[str]) -> int:
     undo_signals = signals.unwind()
     try:
         return module.run(options) or 0
-    except KeyboardInterrupt:
-        return 130
     except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 1
+        raise
     except ZteleopError as error:
         return _fail(verb, str(error), options.debug)
     except Exception as error:

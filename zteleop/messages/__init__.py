@@ -60,10 +60,10 @@ def message_type(name: str) -> type[Message]:
 
     Raises MessageError with the nearest names when there is none.
     """
-    package, _, leaf = name.rpartition("/")
-    package = package.partition("/")[0]
+    *package, leaf = name.split("/")
     for ros_type, kind in MESSAGES.items():
-        if ros_type.endswith(f"/{leaf}") and ros_type.startswith(f"{package}/" if package else ""):
+        parts = ros_type.split("/")
+        if leaf == parts[-1] and package in ([], parts[:1], parts[:2]):
             return kind
     from difflib import get_close_matches
 

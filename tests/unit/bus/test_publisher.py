@@ -164,6 +164,7 @@ def test_somebody_hears_when_somebody_subscribes(operator: Operator, matching: b
         (REST, None, False),
         (Twist.planar(-0.0, -0.0), None, False),
         (Twist.planar(0.1), None, True),
+        (Twist.planar(-0.1), None, True),
         (Twist.planar(0.0, -0.1), CAR, True),
         (TwistStamped(Header.zero(), REST), None, False),
         (TwistStamped(Header.zero(), FORWARD), None, True),

@@ -1,3 +1,8 @@
+import io
+import os
+from collections.abc import Iterator
+from contextlib import suppress
+
 import pytest
 from unit.bus.fakes import Clock
 
@@ -9,3 +14,15 @@ def clock(monkeypatch: pytest.MonkeyPatch) -> Clock:
     clock = Clock()
     monkeypatch.setattr(bus_clock, "now", clock.now)
     return clock
+
+
+@pytest.fixture(params=["buffered", "unbuffered"])
+def deaf(request: pytest.FixtureRequest) -> Iterator[io.TextIOWrapper]:
+    """A stdout whose reader has left, as `zteleop ... | head` has it."""
+    reader, writer = os.pipe()
+    os.close(reader)
+    buffering = 0 if request.param == "unbuffered" else -1
+    stdout = io.TextIOWrapper(os.fdopen(writer, "wb", buffering), write_through=not buffering)
+    yield stdout
+    with suppress(BrokenPipeError):
+        stdout.close()

@@ -1,5 +1,7 @@
+import io
 import subprocess
 import sys
+from contextlib import redirect_stdout
 from importlib import import_module
 from importlib.metadata import version
 from pathlib import Path
@@ -93,3 +95,10 @@ def test_help_costs_neither_zenoh_nor_msgspec() -> None:
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stderr.splitlines()[1:] == [""]
+
+
+@pytest.mark.parametrize("argument", ["--help", "--version"])
+def test_a_reader_that_left_is_no_error_to_talk_about(argument: str, deaf: io.TextIOWrapper) -> None:
+    with redirect_stdout(deaf):
+        main([argument])
+    deaf.close()
