@@ -1,7 +1,9 @@
 """Figures from samples: medians, p99 and tables; and the --quick that every script takes."""
 
 import argparse
+import signal
 import statistics
+import sys
 from collections.abc import Sequence
 
 TABLE_GAP = "  "
@@ -11,6 +13,7 @@ def is_quick(description: str) -> bool:
     """Parse the command line of a script; True for a run of a few seconds."""
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("--quick", action="store_true", help="a run of a few seconds: rough figures")
+    signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))  # ends what was started
     return bool(parser.parse_args().quick)
 
 

@@ -6,7 +6,6 @@ import pty
 import random
 import select
 import shutil
-import socket
 import struct
 import subprocess
 import sys
@@ -14,66 +13,49 @@ import tempfile
 import termios
 import time
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager, ExitStack, contextmanager
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Self
 
+from processes import free_endpoint, running
+
 from zteleop.drivers.registers import LED0_ON_L
-from zteleop.drivers.simulated import default_path, open_registers
+from zteleop.drivers.simulated import open_registers
 
 ZTELEOP = str(Path(sys.executable).with_name("zteleop"))
+RAW_LINE = str(Path(__file__).with_name("raw_line.py"))
 ROBOT = "bench"
 LEFT, RIGHT = b"\x1b[D", b"\x1b[C"
 LOOK_EVERY = 20e-6
 LONGEST = 0.5
 
 
-def free_endpoint() -> str:
-    """Return an endpoint on this machine that nobody listens at."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return f"tcp/127.0.0.1:{probe.getsockname()[1]}"
-
-
-@contextmanager
-def running(command: Sequence[str], **options: object) -> Iterator["subprocess.Popen[str]"]:
-    """Run a process for as long as the `with` lasts, however it ends."""
-    options = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "text": True} | options
-    process: subprocess.Popen[str] = subprocess.Popen(command, **options)  # type: ignore[call-overload]
-    try:
-        yield process
-    finally:
-        process.terminate()
-        try:
-            process.wait(3)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
-
-
-class Robot(AbstractContextManager["Robot"]):
+class Robot:
     """An actuator with a chip in a folder of its own, so that no other robot on this machine takes part."""
 
     def __init__(self) -> None:
         self.folder = tempfile.mkdtemp(prefix="zteleop-bench-")
         self.endpoint = free_endpoint()
+        self.chip = f"{self.folder}/zteleop/{ROBOT}.pca9685"
         self.environment = os.environ | {
-            **{name: self.folder for name in ("XDG_RUNTIME_DIR", "XDG_CONFIG_HOME", "XDG_STATE_HOME")},
+            **dict.fromkeys(("XDG_RUNTIME_DIR", "XDG_CONFIG_HOME", "XDG_STATE_HOME"), self.folder),
             **{"TERM": "xterm-256color", "LC_ALL": "C.UTF-8"},
         }
         self._stack = ExitStack()
 
     def __enter__(self) -> Self:
         self._stack.callback(shutil.rmtree, self.folder, ignore_errors=True)
-        here, os.environ["XDG_RUNTIME_DIR"] = os.environ.get("XDG_RUNTIME_DIR"), self.folder
-        self.registers = self._stack.enter_context(open_registers(default_path(ROBOT)))
-        if here is None:
-            del os.environ["XDG_RUNTIME_DIR"]
-        else:
-            os.environ["XDG_RUNTIME_DIR"] = here
-        self.actuator = self.start("actuator", "--listen", self.endpoint)
-        self._await_actuator()
+        try:
+            self.registers = self._stack.enter_context(open_registers(self.chip))
+            self.actuator = self.start_actuator()
+            self._await_actuator()
+        except BaseException:
+            self._stack.close()
+            raise
         return self
+
+    def start_actuator(self) -> "subprocess.Popen[str]":
+        return self.start("actuator", "--listen", self.endpoint)
 
     def __exit__(self, *exc: object) -> None:
         self._stack.close()
@@ -101,6 +83,13 @@ class Robot(AbstractContextManager["Robot"]):
         time.sleep(0.3)
 
 
+class RawRobot(Robot):
+    """A wheel at the end of raw zenoh: the peer."""
+
+    def start_actuator(self) -> "subprocess.Popen[str]":
+        return self.start_program([sys.executable, RAW_LINE, "wheel", self.endpoint, self.chip])
+
+
 class Operator:
     """A keyboard node in a pseudo-terminal of its own, whose screen somebody else reads."""
 
@@ -118,6 +107,8 @@ class Operator:
         robot.start_program(["cat"], stdin=self._master)
         os.close(slave)
         time.sleep(1.0)
+        if self.process.poll() is not None:
+            raise SystemExit(f"it ended at once: {' '.join(map(str, self.process.args))}")
         Path("/proc/self/timerslack_ns").write_text("1")
 
     def press(self, key: bytes) -> float | None:

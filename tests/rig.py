@@ -1,26 +1,39 @@
 """A robot on a bench: real processes on a real bus of their own, watched at the chip's registers."""
 
 import os
+import pty
 import select
 import signal
 import socket
 import subprocess
 import sys
+import termios
 import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import ExitStack, closing, suppress
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, closing, contextmanager, suppress
+from fcntl import ioctl
 from pathlib import Path
-from typing import IO, Self
+from struct import pack
+from typing import IO, Any, Self, TypeVar
+
+import pyte
+import zenoh
 
 from zteleop.bus.node import Node
-from zteleop.bus.session import BusSettings
+from zteleop.bus.session import BusSettings, open_session
 from zteleop.drivers.registers import read_duty_ticks
 from zteleop.drivers.simulated import open_registers
 
 THROTTLE, STEERING = 0, 1
 NEUTRAL = (375, 370)
 PATIENCE = 10.0
+ZTELEOP = (sys.executable, "-m", "zteleop")
+TAKE_TERMINAL = """
+import fcntl, os, sys, termios
+fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+os.execv(sys.executable, [sys.executable, *sys.argv[1:]])
+"""
 
 
 def free_port() -> int:
@@ -39,21 +52,30 @@ def until(condition: Callable[[], object], what: str, patience: float = PATIENCE
 
 
 class Process:
-    """A verb in a process of its own, whose lines can be awaited."""
+    """A process of its own, whose lines can be awaited."""
 
-    def __init__(self, arguments: Sequence[str], environment: dict[str, str], folder: Path) -> None:
+    def __init__(self, command: Sequence[str], environment: Mapping[str, str], folder: Path) -> None:
+        self._said = threading.Condition()
+        self.lines: list[str] = []
+        self._start(command, environment, folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE)
+
+    def _start(
+        self,
+        command: Sequence[str],
+        environment: Mapping[str, str],
+        folder: Path,
+        stdin: int,
+        stdout: int,
+    ) -> None:
         self.process = subprocess.Popen(
-            [sys.executable, "-m", "zteleop", *arguments],
+            command,
             env=environment,
             cwd=folder,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
+            stdin=stdin,
+            stdout=stdout,
             stderr=subprocess.STDOUT,
             start_new_session=True,
         )
-        self.lines: list[str] = []
-        self._said = threading.Condition()
-        assert self.process.stdout
         self._reader = threading.Thread(target=self._read, args=(self.process.stdout,), daemon=True)
         self._reader.start()
 
@@ -95,13 +117,122 @@ class Process:
             self.process.stdout.close()
 
 
+class Terminal(Process):
+    """A process in the foreground of a terminal that controls it; what is shown can be awaited."""
+
+    def __init__(
+        self,
+        arguments: Sequence[str],
+        environment: Mapping[str, str],
+        folder: Path,
+        columns: int = 80,
+        rows: int = 24,
+    ) -> None:
+        self._said = threading.Condition()
+        self._screen = pyte.Screen(columns, rows)
+        self._stream = pyte.ByteStream(self._screen)
+        self.output = b""
+        self._master, self._slave = pty.openpty()
+        self._set_size(columns, rows)
+        self.found = self.modes()
+        command = [sys.executable, "-c", TAKE_TERMINAL, *arguments]
+        self._start(command, environment, folder, stdin=self._slave, stdout=self._slave)
+
+    @property
+    def screen(self) -> str:
+        with self._said:
+            return "\n".join(line.rstrip() for line in self._screen.display)
+
+    def modes(self) -> list[Any]:
+        return termios.tcgetattr(self._slave)
+
+    def type(self, keys: str) -> None:
+        os.write(self._master, keys.encode())
+
+    def resize(self, columns: int, rows: int) -> None:
+        """Do what a terminal's window does when it is dragged larger or smaller."""
+        with self._said:
+            self._screen.resize(rows, columns)
+        self._set_size(columns, rows)
+
+    def shows(self, *texts: str, patience: float = PATIENCE) -> str:
+        """Wait until all these texts are on the screen together; return the screen."""
+
+        def found() -> bool:
+            return all(text in "\n".join(self._screen.display) for text in texts)
+
+        with self._said:
+            seen = self._said.wait_for(found, patience)
+        assert seen, f"never showed {texts}:\n{self.screen}"
+        return self.screen
+
+    def is_as_found(self) -> None:
+        """Wait until the terminal is left: its modes, its screen, its cursor and its way to paste."""
+
+        def left() -> bool:
+            return all(
+                self.output.rfind(b"\x1b[?%s" % off) >= self.output.rfind(b"\x1b[?%s" % on)
+                for on, off in ((b"1049h", b"1049l"), (b"25l", b"25h"), (b"2004h", b"2004l"))
+            )
+
+        with self._said:
+            assert self._said.wait_for(left, PATIENCE), f"not left: {self.output[-200:]!r}"
+        assert self.modes() == self.found
+
+    def close(self) -> None:
+        if self.process.poll() is None:
+            self.process.kill()
+        self.process.wait()
+        os.close(self._slave)
+        self._reader.join()
+        os.close(self._master)
+
+    def ends(self, patience: float = PATIENCE) -> int:
+        return self.process.wait(patience)
+
+    def _set_size(self, columns: int, rows: int) -> None:
+        """Set the size; the kernel tells whoever is in the foreground by SIGWINCH."""
+        ioctl(self._slave, termios.TIOCSWINSZ, pack("HHHH", rows, columns, 0, 0))
+
+    def _read(self, output: IO[bytes]) -> None:
+        with suppress(OSError):  # EIO: nobody holds the other end any more
+            while data := os.read(self._master, 65536):
+                with self._said:
+                    self.output += data
+                    self._stream.feed(data)
+                    self._said.notify_all()
+
+
+P = TypeVar("P", bound=Process)
+
+
+class Watch:
+    """Looks at the chip all the time and keeps what it saw."""
+
+    def __init__(self, rig: "Rig") -> None:
+        self._rig = rig
+        self._ended = threading.Event()
+        self._thread = threading.Thread(target=self._look, daemon=True)
+        self.seen: set[tuple[int | None, int | None]] = set()
+
+    def __enter__(self) -> Self:
+        self._thread.start()
+        return self
+
+    def __exit__(self, *exc: object) -> None:
+        self._ended.set()
+        self._thread.join()
+
+    def _look(self) -> None:
+        while not self._ended.wait(0.002):
+            self.seen.add(self._rig.ticks)
+
+
 class Rig:
     """One robot with a simulated chip in a folder of its own, and everybody who talks to it."""
 
-    robot = "bench"
-
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
+    def __init__(self, folder: Path, robot: str = "bench") -> None:
+        self.folder, self.robot = folder, robot
         self.port = free_port()
         self.environment = {
             name: value for name, value in os.environ.items() if not name.startswith(("XDG_", "ZENOH"))
@@ -132,7 +263,54 @@ class Rig:
 
     def run(self, *arguments: str) -> Process:
         """Run a verb as it stands."""
-        process = Process(arguments, self.environment, self.folder)
+        return self._keep(Process([*ZTELEOP, *arguments], self.environment, self.folder))
+
+    def program(self, text: str, *arguments: str) -> Process:
+        """Run somebody's Python program."""
+        command = [sys.executable, "-c", text, *arguments]
+        return self._keep(Process(command, self.environment, self.folder))
+
+    def result(self, verb: str, *arguments: str) -> "subprocess.CompletedProcess[str]":
+        """Run a verb to its end; its output and its errors apart."""
+        return subprocess.run(
+            [*ZTELEOP, verb, *arguments],
+            env=self.environment,
+            cwd=self.folder,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            timeout=PATIENCE,
+        )
+
+    def keyboard(
+        self, *arguments: str, columns: int = 80, rows: int = 24, environment: Mapping[str, str] | None = None
+    ) -> Terminal:
+        """Sit down before a terminal with the keyboard's screen on it."""
+        return self.terminal(
+            "keyboard",
+            *arguments,
+            *self.bus_options(),
+            columns=columns,
+            rows=rows,
+            environment=environment or {},
+        )
+
+    def terminal(
+        self, *arguments: str, columns: int = 80, rows: int = 24, environment: Mapping[str, str] | None = None
+    ) -> Terminal:
+        """Run a verb in the foreground of a terminal."""
+        surroundings = self.environment | {"TERM": "xterm-256color", "LC_ALL": "C.UTF-8"}
+        surroundings |= environment or {}
+        command = [*ZTELEOP[1:], *arguments]
+        return self._keep(Terminal(command, surroundings, self.folder, columns, rows))
+
+    def session(self) -> zenoh.Session:
+        """Join the bus without any of zteleop's manners."""
+        session = open_session(BusSettings(connect=[self.endpoint], multicast=False))
+        self._stack.callback(session.close)
+        return session
+
+    def _keep(self, process: P) -> P:
         self._stack.callback(process.close)
         return process
 
@@ -235,6 +413,26 @@ class Cable:
             for closed in (end, other):
                 self._pairs.pop(closed, None)
                 closed.close()
+
+
+@contextmanager
+def repeating(act: Callable[[], object], period: float) -> Iterator[None]:
+    """Do something again and again meanwhile, as a key that is held or a program does."""
+    ended = threading.Event()
+
+    def run() -> None:
+        due = time.monotonic()
+        while not ended.wait(max(0.0, due - time.monotonic())):
+            due += period
+            act()
+
+    thread = threading.Thread(target=run, daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        ended.set()
+        thread.join()
 
 
 def every(seconds: float, times: int) -> Iterator[int]:

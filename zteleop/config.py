@@ -90,17 +90,31 @@ def found() -> Path | None:
 def own_name() -> str:
     """Return this machine's robot name, made and kept at the first call."""
     file = _xdg("XDG_STATE_HOME", ".local/state") / "robot"
+    with contextlib.suppress(OSError, ConfigError, UnicodeDecodeError):
+        return _kept_name(file)
     try:
-        file.parent.mkdir(parents=True, exist_ok=True)
-        with contextlib.suppress(FileExistsError), file.open("x") as new:  # of two at once one makes it
-            new.write(f"car-{secrets.token_hex(2)}\n")
-        return robot_name(file.read_text().strip())
+        return _make_name(file)
     except OSError as error:
         raise ConfigError(
             f"cannot keep a robot's name in {file}: {error.strerror}; say --robot NAME"
         ) from None
-    except (ConfigError, UnicodeDecodeError) as error:
-        raise ConfigError(f"{file} holds no robot's name ({error}); remove it, or say --robot NAME") from None
+
+
+def _kept_name(file: Path) -> str:
+    return robot_name(file.read_text().strip())
+
+
+def _make_name(file: Path) -> str:
+    """Keep a new name; of two processes that start at once, both get the same."""
+    file.parent.mkdir(parents=True, exist_ok=True)
+    new = file.with_name(f"robot.{os.getpid()}")
+    new.write_text(f"car-{secrets.token_hex(2)}\n")
+    if file.exists():  # and holds no name
+        new.replace(file)
+    with contextlib.suppress(FileExistsError, FileNotFoundError):
+        os.link(new, file)
+    new.unlink(missing_ok=True)
+    return _kept_name(file)
 
 
 def _xdg(variable: str, default: str) -> Path:
