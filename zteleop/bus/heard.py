@@ -27,10 +27,13 @@ class Heard:
         return self._vehicle
 
     def wait(self) -> None:
-        """Wait for the first beat, once: what moves before it would have begun before the robot."""
+        """Wait, once, for the first beat and for the vehicle.
+
+        What moves before a beat would have begun before the robot; neutral pulses are the vehicle's own.
+        """
         give_up = clock.now() + self._patience
         self._patience = 0.0
-        while self.beat is None and clock.now() < give_up:
+        while (self.beat is None or self.vehicle is None) and clock.now() < give_up:
             self.listen()
             time.sleep(_POLL)
 

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 from zteleop.bus import clock
+from zteleop.bus.escape import printable
 from zteleop.messages import Log
 
 _LEVELS = {Log.DEBUG: "debug", Log.INFO: "info", Log.WARN: "warning", Log.ERROR: "error"}
@@ -34,12 +35,7 @@ class NodeLog:
             self._held_back += 1
             return
         self._said[subject] = now
-        text = _printable(text[:500]) + (f" ({self._held_back} others held back)" if self._held_back else "")
+        text = printable(text[:500]) + (f" ({self._held_back} others held back)" if self._held_back else "")
         self._held_back = 0
         self._publish(Log(clock.stamp(), level, self._name, text, "", "", 0))
         self.show(f"{self._name}: {_LEVELS[level]}: {text}")
-
-
-def _printable(text: str) -> str:
-    """Escape what could steer a terminal: names and reasons may come from strangers."""
-    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)

@@ -58,6 +58,10 @@ class Loop:
         self._ready.append(action)
         self._ring()
 
+    def call_next(self, action: Action) -> None:
+        """Run an action in the next round; for the loop's own thread, which nobody need wake."""
+        self._ready.append(action)
+
     def every(self, period: float, action: Action) -> Timer:
         """Run an action every `period` seconds, the first time at once."""
         timer = Timer(period, action, clock.now())

@@ -113,7 +113,7 @@ class Node:
         self._token(presence.endpoint_key(name, "sub", self.name, kinds))
         inbox: Subscription[M] = Subscription(subscriber, codec.decoders(kinds), self._complain)
         if handler:
-            self._pumps.append(Pump(inbox, handler, depth, self._loop))
+            self._pumps.append(Pump(inbox, handler, self._loop))
         return inbox
 
     def on(self, topic: str, types: Types[M]) -> Callable[[Callable[[M], object]], Callable[[M], object]]:

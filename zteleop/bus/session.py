@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import time
 from typing import Annotated, Literal
 
@@ -20,6 +21,9 @@ import zenoh
 PORT = 7447
 ROBOT_ENDPOINT = f"tcp/[::]:{PORT}"
 SAME_MACHINE = f"tcp/127.0.0.1:{PORT}"
+_ENDPOINT = re.compile(
+    r"(tcp|udp|tls|quic|ws)/(\[[0-9A-Fa-f:.%]+\]|[^\s/:\[\]]+):\d{1,5}([?#].*)?$|unixsock-stream/."
+)
 _RETRY = 0.1
 _QUIET = 0.06
 
@@ -66,6 +70,11 @@ def _settle(session: zenoh.Session) -> zenoh.Session:
 
 
 def _configure(settings: BusSettings, settle: bool) -> zenoh.Config:
+    for endpoint in (*settings.connect, *settings.listen):
+        if not _ENDPOINT.match(endpoint):
+            raise ConfigError(
+                f"an endpoint is such as tcp/pi.local:{PORT} or tcp/[::]:{PORT}, found {endpoint!r}"
+            )
     connect = settings.connect or ([SAME_MACHINE] if settings.mode == "peer" and settings.multicast else [])
     values = {
         "mode": settings.mode,

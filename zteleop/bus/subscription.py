@@ -90,19 +90,14 @@ class Subscription(Generic[M]):
 class Pump(Generic[M]):
     """Wakes the loop for a subscription's handler.
 
-    Its thread takes one sample and waits until the loop has emptied the ring, so that a
-    flood costs the loop a bounded share, and other topics nothing.
+    Its thread takes one sample and waits until the loop has emptied the ring, one message a
+    round: a flood, or a slow handler, costs the other topics one run of that handler at most.
     """
 
     def __init__(
-        self,
-        subscription: Subscription[M],
-        handler: Callable[[Received[M]], object],
-        depth: int,
-        loop: Loop,
+        self, subscription: Subscription[M], handler: Callable[[Received[M]], object], loop: Loop
     ) -> None:
-        self._subscription, self._handler, self._depth = subscription, handler, depth
-        self._loop = loop
+        self._subscription, self._handler, self._loop = subscription, handler, loop
         self._sample: zenoh.Sample | None = None
         self._emptied = threading.Event()
         self._closed = False
@@ -125,20 +120,18 @@ class Pump(Generic[M]):
             self._emptied.clear()
             if self._closed:  # the loop will not come for it any more
                 return
-            self._loop.call_soon(self._empty)
+            self._loop.call_soon(self._hand_over)
             self._emptied.wait()
 
-    def _empty(self) -> None:
-        sample, left = self._sample, self._depth
+    def _hand_over(self) -> None:
+        sample = self._sample
         try:
-            while sample is not None:
-                received = self._subscription.read(sample)
-                if received:
-                    self._handler(received)
-                left -= 1
-                if not left:
-                    break
-                self._loop.before_each()
-                sample = self._subscription.ring.try_recv()
+            received = sample and self._subscription.read(sample)
+            if received:
+                self._handler(received)
         finally:
-            self._emptied.set()
+            self._sample = self._subscription.ring.try_recv()
+            if self._sample is None:
+                self._emptied.set()
+            else:
+                self._loop.call_next(self._hand_over)

@@ -7,6 +7,7 @@ import msgspec
 import zenoh
 
 from zteleop.bus import codec
+from zteleop.bus.escape import printable
 from zteleop.bus.names import resolve
 from zteleop.bus.session import open_session
 from zteleop.bus.topics import topic_of
@@ -59,9 +60,10 @@ def _print(sample: zenoh.Sample, as_json: bool) -> bool:
     try:
         values = codec.decode_any(bytes(sample.payload), str(sample.encoding))
     except MessageError as error:
-        print(ascii(f"{sample.key_expr}: {error}")[1:-1], file=sys.stderr)
+        print(printable(f"{sample.key_expr}: {error}"), file=sys.stderr)
         return False
-    print(msgspec.json.encode(values).decode() if as_json else _yaml(values), flush=True)
+    text = msgspec.json.encode(values).decode() if as_json else _yaml(values)
+    print(printable(text, keep="\n"), flush=True)
     return True
 
 

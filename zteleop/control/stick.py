@@ -64,4 +64,4 @@ def ticks(channel: Channel, fraction: float) -> int:
 
 def tightest(vehicle: Vehicle) -> float:
     """Return the largest curvature, in 1/m, that the steering allows."""
-    return tan(vehicle.max_steering_angle) / vehicle.wheelbase
+    return tan(vehicle.max_steering_angle) / vehicle.wheelbase if vehicle.wheelbase else 0.0

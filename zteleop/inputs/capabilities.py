@@ -10,5 +10,8 @@ def wants_color(environ: Mapping[str, str]) -> bool:
 
 def speaks_unicode(environ: Mapping[str, str], encoding: str | None) -> bool:
     """Return whether the locale says UTF-8; without a locale, standard output's encoding decides."""
-    locale = next((environ[name] for name in ("LC_ALL", "LC_CTYPE", "LANG") if environ.get(name)), encoding)
+    names = ["LC_ALL", "LC_CTYPE", "LANG"]
+    if environ.get("LANG") in ("C", "POSIX") and environ.get("LC_CTYPE") == "C.UTF-8":
+        names.remove("LC_CTYPE")  # Python itself put it there (PEP 538)
+    locale = next((environ[name] for name in names if environ.get(name)), encoding)
     return "utf8" in (locale or "").lower().replace("-", "") and environ.get("TERM") != "linux"

@@ -40,7 +40,7 @@ class Terminal:
         self._fd = -1
         self._entered = self._continued = False
         self._saved: list[Any] = []
-        self._previous: Any = None
+        self._handlers: dict[int, Any] = {}
         self._shown: list[str] = []
         self._shown_size = (0, 0)
         self._pending = b""
@@ -56,7 +56,8 @@ class Terminal:
         try:
             self._saved = termios.tcgetattr(self._fd)
             with suppress(ValueError):  # outside the main thread nobody may handle signals
-                self._previous = signal.signal(signal.SIGCONT, self._on_continue)
+                self._handlers[signal.SIGCONT] = signal.signal(signal.SIGCONT, self._on_continue)
+                self._handlers[signal.SIGWINCH] = signal.signal(signal.SIGWINCH, self._on_resize)
             self._enter()
         except BaseException:
             self.__exit__()
@@ -69,9 +70,9 @@ class Terminal:
         try:
             self._leave()
         finally:
-            if self._previous is not None:
-                signal.signal(signal.SIGCONT, self._previous)
-                self._previous = None
+            for number, handler in self._handlers.items():
+                signal.signal(number, handler)
+            self._handlers.clear()
             os.close(self._fd)
             self._fd = -1
 
@@ -153,6 +154,9 @@ class Terminal:
 
     def _on_continue(self, _signal: int, _frame: FrameType | None) -> None:
         self._continued = True
+
+    def _on_resize(self, _signal: int, _frame: FrameType | None) -> None:
+        self.redraw()  # also when the size is the old one again: the terminal has cut its lines
 
     def _resume(self) -> None:
         """After a stop from outside the shell may have changed every mode."""

@@ -45,7 +45,7 @@ class Channel(Message):
 
 
 class Vehicle(Message):
-    """What an input must know of the robot it drives; said twice a second."""
+    """What an input must know of the robot it drives; said five times a second."""
 
     ros_type: ClassVar[str] = "zteleop_msgs/msg/Vehicle"
 

@@ -15,7 +15,7 @@ from zteleop.messages import Beat, DriveStatus, Int16MultiArray, Message, Pwm, T
 PERIOD = 0.02
 AT_MOST_EVERY = 0.005
 TELL_EVERY = 0.05
-DESCRIBE_EVERY = 0.5
+DESCRIBE_EVERY = 0.2
 
 
 class Actuator:

@@ -6,6 +6,7 @@ from typing import NamedTuple
 from zteleop.bus import clock
 from zteleop.bus.node import Node
 from zteleop.control.stick import Stick, neutral_pwm, to_pwm, to_twist
+from zteleop.errors import ConfigError
 from zteleop.inputs import Input
 from zteleop.messages import (
     DriveStatus,
@@ -109,8 +110,16 @@ class Teleop:
             self._epoch = epoch
             self._device.reset(now)
         if vehicle and vehicle != self._vehicle:
+            self._refit(vehicle, now)
+
+    def _refit(self, vehicle: Vehicle, now: float) -> None:
+        """Learn another calibration; what this device cannot drive is said, and never driven."""
+        try:
             self._device.fit(vehicle)
             self._vehicle = vehicle
+        except ConfigError as error:
+            self._device.reset(now)
+            self._node.log.warn(f"{self._node.robot} cannot be driven like this: {error}")
 
     def _view(self, now: float, stick: Stick, command: Twist | Pwm | None) -> View:
         status = self._statuses.newest()

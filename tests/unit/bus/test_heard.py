@@ -64,8 +64,11 @@ def test_what_a_robot_says_of_itself_stays_known(robot: Heard, vehicles: Ring) -
     assert robot.vehicle == CAR
 
 
-def test_it_waits_until_the_first_beat(robot: Heard, beats: Ring, clock: Clock, naps: list[float]) -> None:
+def test_it_waits_until_the_first_beat_and_the_vehicle(
+    robot: Heard, beats: Ring, vehicles: Ring, clock: Clock, naps: list[float]
+) -> None:
     beats.samples.append(sample(Beat(1, 5.0)))
+    vehicles.samples.append(sample(CAR))
     robot.wait()
     assert robot.beat == Beat(1, 5.0)
     assert len(naps) <= 1

@@ -82,9 +82,9 @@ def test_a_long_text_is_cut(ears: Ears) -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("\x1b[2J", "\\x1b[2J"),
-        ("two\nlines", "two\\nlines"),
-        ("\x9b\u202e", "\\x9b\\u202e"),
+        ("\x1b[2J", "\\u001b[2J"),
+        ("two\nlines", "two\\u000alines"),
+        ("\x9b\u202e", "\\u009b\\u202e"),
         ("\ud800", "\\ud800"),
         ("Straße 東京", "Straße 東京"),
     ],

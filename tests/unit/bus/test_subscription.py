@@ -138,13 +138,16 @@ class Obedient:
     """A loop that runs at once what it is called for."""
 
     def __init__(self) -> None:
-        self.looked = 0
+        self.next: Callable[[], object] | None = None
 
     def call_soon(self, action: Callable[[], object]) -> None:
-        action()
+        self.next = action
+        while action := self.next:
+            self.next = None
+            action()
 
-    def before_each(self) -> None:
-        self.looked += 1
+    def call_next(self, action: Callable[[], object]) -> None:
+        self.next = action
 
 
 @pytest.mark.usefixtures("threads", "clock")
@@ -152,57 +155,63 @@ class TestPump:
     def test_a_sample_that_wakes_the_pump_is_handled_in_the_loop(self) -> None:
         inbox, heard = Inbox(sample(String("a"))), []
         loop = Loop(before_each=lambda: heard.append("look"))
-        pump = Pump(inbox.subscription, lambda received: heard.append(received.message.data), 10, loop)
+        pump = Pump(inbox.subscription, lambda received: heard.append(received.message.data), loop)
         assert pump._thread.started
         with pytest.raises(AssertionError, match="waits for ever"):
             pump._thread.run()
         assert heard == []
         inbox.ring.samples.append(sample(String("b")))
         loop.run_once()
-        assert heard == ["look", "a", "look", "b", "look"]
+        assert heard == ["look", "a"]
+        assert not pump._emptied.is_set
+        loop.run_once()
+        assert heard == ["look", "a", "look", "b"]
         assert pump._emptied.is_set
         loop.close()
 
-    def test_a_flood_costs_the_loop_a_bounded_share(self) -> None:
+    def test_a_flood_is_one_message_a_round(self) -> None:
         inbox, heard = Inbox(*(sample(String(str(number))) for number in range(9))), []
-        pump = Pump(inbox.subscription, lambda received: heard.append(received.message.data), 4, Obedient())
+        loop = Obedient()
+        pump = Pump(inbox.subscription, lambda received: heard.append(received.message.data), loop)
         pump._sample = inbox.ring.recv()
-        pump._empty()
-        assert heard == ["0", "1", "2", "3"]
-        assert len(inbox.ring.samples) == 5
+        for number in range(4):
+            pump._hand_over()
+            assert heard[number:] == [str(number)]
+        assert loop.next == pump._hand_over
+        assert not pump._emptied.is_set
 
-    def test_what_is_no_message_counts_too(self) -> None:
+    def test_what_is_no_message_takes_its_turn_too(self) -> None:
         inbox, heard = Inbox(*[Sample(b"{}")] * 9), []
-        pump = Pump(inbox.subscription, heard.append, 4, Obedient())
+        pump = Pump(inbox.subscription, heard.append, Obedient())
         pump._sample = inbox.ring.recv()
-        pump._empty()
-        assert (heard, inbox.subscription.dropped) == ([], 4)
+        pump._hand_over()
+        assert (heard, inbox.subscription.dropped) == ([], 1)
 
     def test_it_goes_round_until_the_session_is_closed(self) -> None:
         inbox, heard = Inbox(*(sample(String(str(number))) for number in range(9))), []
         Pump(
-            inbox.subscription, lambda received: heard.append(received.message.data), 4, Obedient()
+            inbox.subscription, lambda received: heard.append(received.message.data), Obedient()
         )._thread.run()
         assert heard == [str(number) for number in range(9)]
 
     def test_an_error_in_a_handler_does_not_end_the_pump(self) -> None:
         inbox = Inbox(sample(String("a")))
-        pump = Pump(inbox.subscription, lambda received: 1 / 0, 4, Obedient())
+        pump = Pump(inbox.subscription, lambda received: 1 / 0, Obedient())
         pump._sample = inbox.ring.recv()
         with pytest.raises(ZeroDivisionError):
-            pump._empty()
+            pump._hand_over()
         assert pump._emptied.is_set
 
     def test_after_a_close_it_waits_for_nobody(self) -> None:
         inbox = Inbox()
-        pump = Pump(inbox.subscription, pytest.fail, 4, Obedient())
+        pump = Pump(inbox.subscription, pytest.fail, Obedient())
         pump.close()
         pump._thread.run()
 
     def test_a_close_just_after_a_sample_came_does_not_hang(self) -> None:
         """Node.close closes the session, then each pump: the last sample may be in the pump's hand."""
         inbox = Inbox(sample(String("a")))
-        pump = Pump(inbox.subscription, pytest.fail, 4, Loop(before_each=pytest.fail))
+        pump = Pump(inbox.subscription, pytest.fail, Loop(before_each=pytest.fail))
 
         def receive() -> Sample:
             got = Ring.recv(inbox.ring)

@@ -33,7 +33,7 @@ def test_what_cannot_be_read_is_said_on_stderr_escaped(capsys: pytest.CaptureFix
     assert not echo._print(bad, as_json=False)
     out, err = capsys.readouterr()
     assert out == ""
-    assert err.startswith("robot/abe/\\x1b[2J: 2 bytes of 'zenoh/bytes', not JSON")
+    assert err.startswith("robot/abe/\\u001b[2J: 2 bytes of 'zenoh/bytes', not JSON")
 
 
 def test_a_delete_is_no_message(capsys: pytest.CaptureFixture[str]) -> None:

@@ -22,6 +22,7 @@ def test_colour_is_a_matter_of_taste(environ, color):
         ({"LANG": "de_DE.UTF-8"}, "ascii", True),
         ({"LANG": "de_DE.UTF-8", "LC_ALL": "C"}, "utf-8", False),
         ({"LC_CTYPE": "C.utf8"}, None, True),
+        ({"LC_CTYPE": "C.UTF-8", "LANG": "C"}, "utf-8", False),
         ({"LANG": "de_DE.ISO-8859-1"}, "utf-8", False),
         ({}, "UTF-8", True),
         ({}, None, False),

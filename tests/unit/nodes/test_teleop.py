@@ -221,18 +221,15 @@ def test_it_ends_when_the_operator_has_enough(desk: Desk) -> None:
     assert desk.node.stopped
 
 
-def test_a_robot_that_comes_back_as_another_kind_is_left_in_words_and_neutral(
+def test_a_robot_that_comes_back_as_another_kind_is_not_driven_and_said_why(
     steps: Desk, clock: Clock
 ) -> None:
-    def spin() -> None:
-        steps.tick(3)
-        steps.node.hear(clock.time, epoch=2, vehicle=TANK)
-        steps.teleop.obey()
-
-    steps.node.spin = spin
-    with pytest.raises(ConfigError, match="driving in steps needs"):
-        steps.teleop.run()
-    assert steps.pwms.take()[-1:] == [NEUTRAL]
+    steps.tick(3)
+    steps.pwms.take()
+    steps.node.hear(clock.time, epoch=2, vehicle=TANK)
+    steps.teleop.obey()
+    assert steps.pwms.take() == []
+    assert "cannot be driven like this: driving in steps needs" in steps.node.warnings[-1]
 
 
 def test_what_there_is_to_see_is_shown_at_every_tick(desk: Desk, clock: Clock) -> None:
