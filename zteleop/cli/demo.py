@@ -11,7 +11,7 @@ from typing import IO
 
 from zteleop.bus import clock
 from zteleop.bus.node import Node
-from zteleop.bus.session import PORT, BusSettings
+from zteleop.bus.session import SAME_MACHINE, BusSettings
 from zteleop.cli.keyboard import drive_with_keys, find_vehicle
 from zteleop.config import Config
 from zteleop.errors import BusError
@@ -37,7 +37,9 @@ def run(arguments: argparse.Namespace) -> int:
         (folder / "config.toml").write_text(f'[drivers.simulated]\npath = "{folder / "chip"}"\n')
         where = ["--config", str(folder / "config.toml"), "--robot", robot, "--no-multicast-scouting"]
         children = [
-            stack.enter_context(child(["actuator", *where, "--listen", endpoint], log)),
+            stack.enter_context(
+                child(["actuator", *where, "--listen", endpoint, "--listen", SAME_MACHINE], log)
+            ),
             stack.enter_context(
                 child(["sim", *where, "--connect", endpoint, "--listen", "tcp/127.0.0.1:0"], log)
             ),
@@ -121,13 +123,6 @@ def await_robot(node: Node, children: "list[subprocess.Popen[bytes]]", log: Path
 
 
 def _free_port() -> int:
-    """Return the robots' usual port, where every verb on this machine looks, else any free one."""
-    for port in (PORT, 0):
-        with socket.socket() as probe:
-            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-            try:
-                probe.bind(("127.0.0.1", port))
-            except OSError:
-                continue
-            return int(probe.getsockname()[1])
-    raise BusError("no free port on 127.0.0.1")
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
