@@ -1,7 +1,7 @@
 """One thread that waits for inboxes, timers and files, and runs what belongs to them."""
 
+import os
 import select
-import socket
 import threading
 from collections import deque
 from collections.abc import Callable
@@ -38,15 +38,15 @@ class Loop:
         self._ready: deque[Action] = deque()
         self._timers: list[Timer] = []
         self._files: dict[int, Action] = {}
-        self._ear, self._bell = socket.socketpair()
-        self._ear.setblocking(False)
-        self._bell.setblocking(False)
+        self._ear, self._bell = os.pipe()
+        os.set_blocking(self._bell, False)
         self._rung = threading.Lock()
         self._running = True
 
     def close(self) -> None:
-        self._ear.close()
-        self._bell.close()
+        bell, self._bell = self._bell, -1
+        os.close(bell)
+        os.close(self._ear)
 
     def stop(self) -> None:
         """End `run` after the action at hand; safe from any thread."""
@@ -91,8 +91,8 @@ class Loop:
         due = min((timer.due for timer in self._timers), default=FAR)
         due = min(due, until or FAR)
         timeout = max(0.0, min(due - clock.now(), LONGEST_WAIT))
-        readable = select.select([self._ear.fileno(), *self._files], [], [], 0 if self._ready else timeout)[0]
-        if self._ear.fileno() in readable:
+        readable = select.select([self._ear, *self._files], [], [], 0 if self._ready else timeout)[0]
+        if self._ear in readable:
             self._answer()
         for _ in range(len(self._ready)):
             self._run(self._ready.popleft())
@@ -114,9 +114,9 @@ class Loop:
             action()
 
     def _ring(self) -> None:
-        if self._rung.acquire(blocking=False):
-            self._bell.send(b"!")
+        if self._bell >= 0 and self._rung.acquire(blocking=False):
+            os.write(self._bell, b"!")
 
     def _answer(self) -> None:
-        self._ear.recv(16)
+        os.read(self._ear, 1)
         self._rung.release()

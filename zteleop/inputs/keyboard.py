@@ -72,11 +72,11 @@ class Keyboard:
 
         Raises ConfigError in steps for a vehicle without steering and throttle.
         """
+        if self.drive == "step" and self._levers.fit(vehicle):
+            self.reset(self._now)
         self.idle_limit = min(IDLE_LIMIT, vehicle.operator_silence)
         self._fastest = Speeds(vehicle.max_speed, vehicle.max_turn)
         self._set_speeds(self.speeds.forward, self.speeds.turn)
-        if self.drive == "step" and self._levers.fit(vehicle):
-            self.reset(self._now)
 
     def read(self, now: float) -> bool:
         """Take in the keys pressed, without blocking; True when there were any."""

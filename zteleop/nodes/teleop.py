@@ -22,6 +22,7 @@ from zteleop.messages import (
 PERIOD = 0.05
 NEUTRALS = 3
 LINK_LOSS = 2.0
+SHOW_AFTER = 0.004  # drawing at once would hold up what was just said on its way out
 
 
 class View(NamedTuple):
@@ -58,6 +59,9 @@ class Teleop:
         self._note = ""
         self._epoch: int | None = None
         self._neutrals = 0
+        self._stick = Stick()
+        self._wanted: Twist | Pwm | None = None
+        self._picture = node.alarm(self._draw)
         device.fit(vehicle)
 
     def run(self) -> None:
@@ -72,7 +76,7 @@ class Teleop:
             self._say(None)
 
     def obey(self) -> None:
-        """Take in what the operator did, say what the stick asks for, and show it."""
+        """Take in what the operator did, say what the stick asks for, and soon show it."""
         now = clock.now()
         self._notice_robot(now)
         if self._device.read(now):
@@ -85,9 +89,13 @@ class Teleop:
         if self._neutrals:
             self._neutrals -= command is None
             self._say(command)
-        self._show(self._view(now, stick, command))
+        self._stick, self._wanted = stick, command
+        self._picture.due = now + SHOW_AFTER
         if self._device.finished:
             self._node.stop()
+
+    def _draw(self) -> None:
+        self._show(self._view(clock.now()))
 
     def _command(self, stick: Stick) -> Twist | Pwm | None:
         if self._device.drive == "step":
@@ -121,7 +129,7 @@ class Teleop:
             self._device.reset(now)
             self._node.log.warn(f"{self._node.robot} cannot be driven like this: {error}")
 
-    def _view(self, now: float, stick: Stick, command: Twist | Pwm | None) -> View:
+    def _view(self, now: float) -> View:
         status = self._statuses.newest()
         if status:
             self._status, self._status_at = status, now
@@ -132,4 +140,4 @@ class Teleop:
         self._note = f"{log.name}: {log.msg}" if log else self._note
         publisher = self._pwms if self._device.drive == "step" else self._twists
         ours = self._status is not None and self._status.operator == publisher.sender
-        return View(now, self._vehicle, stick, command, self._status, ours, self._odom, self._note)
+        return View(now, self._vehicle, self._stick, self._wanted, self._status, ours, self._odom, self._note)

@@ -78,7 +78,7 @@ def test_a_client_fails_at_once_so_that_our_own_loop_retries() -> None:
 
 
 def test_a_robot_starts_even_when_its_usual_port_is_taken() -> None:
-    assert configure(listen=[ROBOT_ENDPOINT])("listen/exit_on_failure") is False
+    assert configure(listen=[ROBOT_ENDPOINT, "tcp/[::]:0"])("listen/exit_on_failure") is False
     assert configure(listen=["tcp/127.0.0.1:7448"])("listen/exit_on_failure") is True
 
 

@@ -96,22 +96,21 @@ def test_iteration_ends_with_the_session() -> None:
     assert list(inbox.subscription) == [String("a"), String("b")]
 
 
-class Event:
-    """A threading.Event that tells instead of waiting."""
+class Lock:
+    """A threading.Lock that tells instead of waiting."""
 
     def __init__(self) -> None:
-        self.is_set = False
-        self.waited = 0
+        self.held = False
 
-    def set(self) -> None:
-        self.is_set = True
+    def acquire(self, blocking: bool = True) -> bool:
+        assert not (blocking and self.held), "waits for ever"
+        free, self.held = not self.held, True
+        return free
 
-    def clear(self) -> None:
-        self.is_set = False
-
-    def wait(self) -> None:
-        self.waited += 1
-        assert self.is_set, "waits for ever"
+    def release(self) -> None:
+        if not self.held:
+            raise RuntimeError("release unlocked lock")
+        self.held = False
 
 
 class Thread:
@@ -131,7 +130,7 @@ class Thread:
 @pytest.fixture
 def threads(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(threading, "Thread", Thread)
-    monkeypatch.setattr(threading, "Event", Event)
+    monkeypatch.setattr(threading, "Lock", Lock)
 
 
 class Obedient:
@@ -163,10 +162,10 @@ class TestPump:
         inbox.ring.samples.append(sample(String("b")))
         loop.run_once()
         assert heard == ["look", "a"]
-        assert not pump._emptied.is_set
+        assert pump._emptied.held
         loop.run_once()
         assert heard == ["look", "a", "look", "b"]
-        assert pump._emptied.is_set
+        assert not pump._emptied.held
         loop.close()
 
     def test_a_flood_is_one_message_a_round(self) -> None:
@@ -178,7 +177,7 @@ class TestPump:
             pump._hand_over()
             assert heard[number:] == [str(number)]
         assert loop.next == pump._hand_over
-        assert not pump._emptied.is_set
+        assert pump._emptied.held
 
     def test_what_is_no_message_takes_its_turn_too(self) -> None:
         inbox, heard = Inbox(*[Sample(b"{}")] * 9), []
@@ -200,7 +199,7 @@ class TestPump:
         pump._sample = inbox.ring.recv()
         with pytest.raises(ZeroDivisionError):
             pump._hand_over()
-        assert pump._emptied.is_set
+        assert not pump._emptied.held
 
     def test_after_a_close_it_waits_for_nobody(self) -> None:
         inbox = Inbox()

@@ -18,7 +18,15 @@ from zteleop.messages import (
     Twist,
     TwistStamped,
 )
-from zteleop.nodes.actuator import AT_MOST_EVERY, DESCRIBE_EVERY, PERIOD, TELL_EVERY, Actuator, to_command
+from zteleop.nodes.actuator import (
+    AT_MOST_EVERY,
+    DESCRIBE_EVERY,
+    IN_A_ROW,
+    PERIOD,
+    TELL_EVERY,
+    Actuator,
+    to_command,
+)
 
 NEUTRAL = {0: 1509.6, 1: 1530.0}
 FORWARD = Twist.planar(0.5)
@@ -162,19 +170,20 @@ def test_a_command_is_obeyed_on_arrival_even_right_after_a_step_of_the_clock(rob
     assert robot.node.infos[-1] == "driving: keyboard drives"
 
 
-def test_commands_that_come_close_together_share_a_step(robot: Robot) -> None:
+def test_a_few_commands_in_a_row_are_answered_at_once_and_then_share_a_step(robot: Robot) -> None:
     robot.tick()
-    robot.say(Pwm(390, 370))
-    answered, writes = robot.clock.time, len(robot.chip.writes)
+    writes = len(robot.chip.writes)
+    for number in range(IN_A_ROW):
+        robot.say(Pwm(380 + number, 370))
+    assert len(robot.chip.writes) == writes + IN_A_ROW
     for ticks_ in (395, 400):
-        robot.clock.pass_by(AT_MOST_EVERY / 4)
         robot.say(Pwm(ticks_, 370))
-    assert len(robot.chip.writes) == writes
+    assert len(robot.chip.writes) == writes + IN_A_ROW
     (soon,) = robot.node.alarms
-    assert soon.due == pytest.approx(answered + AT_MOST_EVERY, abs=1e-9)
+    assert soon.due == pytest.approx(robot.clock.time + AT_MOST_EVERY, abs=1e-9)
     robot.clock.time = soon.due
     robot.node.ring(soon.due)
-    assert len(robot.chip.writes) == writes + 1
+    assert len(robot.chip.writes) == writes + IN_A_ROW + 1
     assert robot.chip.writes[-1][1] == pytest.approx(400 * 4.08)
 
 
@@ -184,7 +193,7 @@ def test_a_flood_is_answered_at_most_200_times_a_second(robot: Robot) -> None:
     for number in range(1000):
         robot.say(Pwm(380 + number % 20, 370))
         robot.clock.pass_by(0.0001)
-    assert 0.1 / AT_MOST_EVERY - 1 <= len(robot.chip.writes) <= 0.1 / AT_MOST_EVERY + 1
+    assert 0.1 / AT_MOST_EVERY - 1 <= len(robot.chip.writes) <= 0.1 / AT_MOST_EVERY + IN_A_ROW
 
 
 def test_silence_is_heard_by_the_clock(robot: Robot) -> None:

@@ -9,7 +9,7 @@ from zteleop.control.servo import Servo
 from zteleop.control.stick import Speeds, Stick
 from zteleop.errors import ConfigError
 from zteleop.messages import DriveStatus, Log, Odometry, Pwm, Twist, Vehicle
-from zteleop.nodes.teleop import LINK_LOSS, PERIOD, Teleop, View
+from zteleop.nodes.teleop import LINK_LOSS, PERIOD, SHOW_AFTER, Teleop, View
 
 CAR = describe(DriveSettings(), 4.08)
 SLOW_CAR = describe(DriveSettings(), 4.1)
@@ -62,6 +62,7 @@ class Desk:
             if beats:
                 self.node.hear(self.clock.time)
             self.teleop.obey()
+            self.node.ring(self.clock.time + SHOW_AFTER)
 
 
 @pytest.fixture
