@@ -1,0 +1,94 @@
+"""What a process of zteleop costs while nothing happens: memory of its own, and shares of one core."""
+
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from itertools import cycle
+from pathlib import Path
+
+from figures import is_quick, print_table, verdict
+from robot import LEFT, RAW_LINE, RIGHT, Operator, Robot
+
+MEMORY_TARGET, CPU_TARGET = 16.0, 3.0
+SUBSCRIBER = """
+from zteleop import BusSettings, Node, Odometry
+with Node("bench", "bench", BusSettings(multicast=False, connect=[{endpoint!r}])) as node:
+    node.subscription("odom", Odometry, print)
+    node.spin()
+"""
+RAW_SUBSCRIBER = """
+import sys
+sys.path.insert(0, {folder!r})
+from raw_line import open_session, zenoh
+with open_session(**{{"connect/endpoints": [{endpoint!r}]}}) as session:
+    subscriber = session.declare_subscriber("robot/bench/odom", zenoh.handlers.RingChannel(10))
+    while True:
+        subscriber.recv()
+"""
+
+
+def private_mb(process: "subprocess.Popen[str]") -> float:
+    """Return the memory that would be free without this process."""
+    lines = Path(f"/proc/{process.pid}/smaps_rollup").read_text().splitlines()
+    return sum(int(line.split()[1]) for line in lines if line.startswith("Private_")) / 1024
+
+
+def cpu_seconds(process: "subprocess.Popen[str]") -> float:
+    """Return how long all threads of a process have run, to the nanosecond."""
+    tasks = Path(f"/proc/{process.pid}/task").glob("*/schedstat")
+    return sum(int(task.read_text().split()[0]) for task in tasks) / 1e9
+
+
+def main() -> None:
+    seconds = 2.0 if is_quick(__doc__) else 10.0
+    with Robot() as robot:
+        operator = Operator(robot)
+        for _ in operator.steer(20):
+            pass
+        processes = {
+            "actuator": robot.actuator,
+            "keyboard": operator.process,
+            "sim": robot.start("sim", "--connect", robot.endpoint, "--listen", "tcp/127.0.0.1:0"),
+            "subscriber: Node, handler": _python(robot, SUBSCRIBER),
+            "peer: raw zenoh subscriber": _python(robot, RAW_SUBSCRIBER),
+        }
+        time.sleep(6)  # until the operator counts as idle
+        idle = _shares(processes, lambda: time.sleep(seconds))
+        driven = _shares(processes, lambda: _drive(operator, seconds))
+        rows = []
+        for name, process in processes.items():
+            memory = private_mb(process)
+            target = "" if name.startswith("peer") else verdict(memory, MEMORY_TARGET, "MB")
+            cpu = verdict(max(idle[name], driven[name]), CPU_TARGET, "%") if name == "actuator" else ""
+            rows.append((name, memory, target, idle[name], driven[name], cpu))
+    head = ["process", "own MB", "target", "% idle", "% driven", "target"]
+    print_table(f"memory and share of one core over {seconds:g} s, at rest and driven at 20 Hz", head, rows)
+
+
+def _shares(processes: "dict[str, subprocess.Popen[str]]", act: Callable[[], None]) -> dict[str, float]:
+    """Return the percentage of one core that each process takes during an act."""
+    before, began = {name: cpu_seconds(process) for name, process in processes.items()}, time.monotonic()
+    act()
+    elapsed = time.monotonic() - began
+    return {name: 100 * (cpu_seconds(processes[name]) - then) / elapsed for name, then in before.items()}
+
+
+def _drive(operator: Operator, seconds: float) -> None:
+    """Steer from one step of left to two and back, a key a second; between keys commands are repeated."""
+    end = time.monotonic() + seconds
+    operator.press(LEFT)
+    for key in cycle((LEFT, RIGHT)):
+        operator.press(key)
+        time.sleep(min(1.0, max(0.0, end - time.monotonic())))
+        if time.monotonic() >= end:
+            break
+
+
+def _python(robot: Robot, program: str) -> "subprocess.Popen[str]":
+    text = program.format(endpoint=robot.endpoint, folder=str(Path(RAW_LINE).parent))
+    return robot.start_program([sys.executable, "-c", text])
+
+
+if __name__ == "__main__":
+    main()

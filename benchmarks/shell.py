@@ -1,0 +1,70 @@
+"""What a command costs a person who waits for it: from the start of its process to its end."""
+
+import subprocess
+import sys
+import time
+from collections.abc import Sequence
+
+from figures import is_quick, median, p99, print_table, verdict
+from processes import running
+from raw_line import ONE_THREAD
+from robot import ROBOT, ZTELEOP, Robot
+
+RAW_ECHO = """
+import argparse, json, msgspec, zenoh
+parser = argparse.ArgumentParser()
+parser.add_argument("key")
+parser.add_argument("-e", "--connect")
+arguments = parser.parse_args()
+config = zenoh.Config()
+for name, value in {"mode": "peer", "connect/endpoints": [arguments.connect], "scouting/delay": 0,
+                    "scouting/multicast/enabled": False, "transport/shared_memory/enabled": False}.items():
+    config.insert_json5(name, json.dumps(value))
+with zenoh.open(config) as session:
+    sample = session.declare_subscriber(arguments.key, zenoh.handlers.RingChannel(10)).recv()
+    print(msgspec.json.decode(sample.payload.to_bytes()))
+"""
+Told = tuple[str, Sequence[str], float | None]
+
+
+def commands(endpoint: str) -> list[Told]:
+    """Return what is timed: how it is called, its command, and how many ms it may take."""
+    where = ["-e", endpoint, "--no-multicast-scouting"]
+    topic, raw_echo = f"{ROBOT}/drive_status", [sys.executable, "-c", RAW_ECHO]
+    return [
+        ("python -c pass", [sys.executable, "-c", "pass"], None),
+        ("zteleop --help", [ZTELEOP, "--help"], 40),
+        ("zteleop echo --once", [ZTELEOP, "echo", topic, "--once", *where], 120),
+        ("peer: raw zenoh + msgspec + argparse", [*raw_echo, f"robot/{topic}", "-e", endpoint], None),
+        ("zteleop list", [ZTELEOP, "list", *where], None),
+        ("(python -c 'import zenoh, msgspec')", [sys.executable, "-c", "import zenoh, msgspec"], None),
+    ]
+
+
+def main() -> None:
+    runs = 3 if is_quick(__doc__) else 20
+    with Robot() as robot:
+        environment = robot.environment | {"ZENOH_RUNTIME": ONE_THREAD}
+        told = commands(robot.endpoint)
+        samples: list[list[float]] = [[] for _ in told]
+        for _ in range(runs):
+            for (name, command, _), taken in zip(told, samples, strict=True):
+                began = time.perf_counter()
+                with running(command, stdout=subprocess.PIPE, env=environment, cwd=robot.folder) as process:
+                    process.communicate(timeout=10)
+                    taken.append(1000 * (time.perf_counter() - began))
+                if process.returncode:
+                    raise SystemExit(f"{name} ended with {process.returncode}")
+    python = median(samples[0])
+    rows = []
+    for (name, _, most), taken in zip(told, samples, strict=True):
+        p50 = median(taken)
+        rows.append((name, p50, p99(taken), p50 - python, verdict(p50, most, "ms") if most else ""))
+    print_table(
+        f"start to end, ms, {runs} runs in turn", ["command", "p50", "slowest", "over python", "target"], rows
+    )
+    print("a topic that is said 20 times a second costs 25 ms of waiting on the average")
+
+
+if __name__ == "__main__":
+    main()
