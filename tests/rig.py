@@ -22,9 +22,12 @@ import zenoh
 
 from zteleop.bus.node import Node
 from zteleop.bus.session import BusSettings, open_session
+from zteleop.bus.subscription import Subscription
 from zteleop.drivers.registers import read_duty_ticks
 from zteleop.drivers.simulated import open_registers
+from zteleop.messages import Message
 
+M = TypeVar("M", bound=Message)
 THROTTLE, STEERING = 0, 1
 NEUTRAL = (375, 370)
 PATIENCE = 10.0
@@ -49,6 +52,18 @@ def until(condition: Callable[[], object], what: str, patience: float = PATIENCE
         assert time.monotonic() - began < patience, f"not within {patience} s: {what}"
         time.sleep(0.0005)
     return time.monotonic() - began
+
+
+def hear(inbox: Subscription[M], wanted: Callable[[M], bool], what: str) -> M:
+    """Wait for a message; an inbox itself would wait for ever."""
+    found: list[M] = []
+
+    def look() -> bool:
+        found.extend(received.message for received in inbox.take() if wanted(received.message))
+        return bool(found)
+
+    until(look, what)
+    return found[0]
 
 
 class Process:
@@ -214,6 +229,8 @@ class Watch:
         self._ended = threading.Event()
         self._thread = threading.Thread(target=self._look, daemon=True)
         self.seen: set[tuple[int | None, int | None]] = set()
+        self.changes: list[tuple[float, tuple[int | None, int | None]]] = []
+        """When the chip was first seen with other pulses, and which."""
 
     def __enter__(self) -> Self:
         self._thread.start()
@@ -224,8 +241,13 @@ class Watch:
         self._thread.join()
 
     def _look(self) -> None:
-        while not self._ended.wait(0.002):
-            self.seen.add(self._rig.ticks)
+        while True:
+            ticks = self._rig.ticks
+            self.seen.add(ticks)
+            if not self.changes or self.changes[-1][1] != ticks:
+                self.changes.append((time.monotonic(), ticks))
+            if self._ended.wait(0.002):
+                return
 
 
 class Rig:

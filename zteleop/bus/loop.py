@@ -44,6 +44,8 @@ class Loop:
         self._running = True
 
     def close(self) -> None:
+        if self._bell < 0:
+            return
         bell, self._bell = self._bell, -1
         os.close(bell)
         os.close(self._ear)

@@ -70,7 +70,7 @@ class Teller:
     def __init__(self) -> None:
         self.distance = 0.0
         self._place: tuple[float, float] | None = None
-        self._began = self._due = clock.now()
+        self._began = self._due = 0.0
 
     def __call__(self, view: View) -> None:
         if view.odom:
@@ -78,7 +78,9 @@ class Teller:
             x, y = self._place or (place.x, place.y)
             self.distance += ((place.x - x) ** 2 + (place.y - y) ** 2) ** 0.5
             self._place = (place.x, place.y)
-        if view.now >= self._due:
+        if not self._began and view.status and view.odom:
+            self._began = self._due = view.now
+        if self._began and view.now >= self._due:
             self._due += 1.0
             print(f"{view.now - self._began:4.0f} s  {self._line(view)}", flush=True)
 

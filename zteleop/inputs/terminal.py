@@ -38,7 +38,7 @@ class Terminal:
         self.resumed = 0
         """How often the process was stopped and went on."""
         self._fd = -1
-        self._entered = self._continued = False
+        self._entered = self._continued = self._resized = False
         self._saved: list[Any] = []
         self._handlers: dict[int, Any] = {}
         self._shown: list[str] = []
@@ -99,6 +99,9 @@ class Terminal:
         self._push()
         if self._pending:
             return
+        if self._resized:
+            self._resized = False
+            self.redraw()
         size = self.size()
         lines = list(lines[: size[1]])
         self._pending = self._encode(self._frame(lines, size))
@@ -156,7 +159,7 @@ class Terminal:
         self._continued = True
 
     def _on_resize(self, _signal: int, _frame: FrameType | None) -> None:
-        self.redraw()  # also when the size is the old one again: the terminal has cut its lines
+        self._resized = True  # also when the size is the old one again: the terminal has cut its lines
 
     def _resume(self) -> None:
         """After a stop from outside the shell may have changed every mode."""

@@ -1,0 +1,134 @@
+"""`zteleop demo`: everything in one, and nothing of it left behind."""
+
+import re
+import signal
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+from rig import Process, Rig, Terminal, until
+
+UP = "\x1b[A"
+LINE = re.compile(r" *(\d+) s  (\w+) +(-?\d+\.\d\d) m/s .* throttle (\d+)  steering (\d+)")
+
+
+@pytest.fixture(scope="module")
+def rig(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Rig]:
+    """A folder with the settings of a real robot, which a demo must leave alone."""
+    with Rig(tmp_path_factory.mktemp("demo")) as bench:
+        (bench.folder / "config.toml").write_text(
+            f'driver = "pca9685"\n[drivers.simulated]\npath = "{bench.chip}"\n'
+        )
+        yield bench
+
+
+class Pair(NamedTuple):
+    figure: Process
+    """the one run without a terminal; it takes ten seconds, in which the others run beside it"""
+    robot: str
+    screen: Terminal
+
+
+@pytest.fixture(scope="module", autouse=True)
+def pair(rig: Rig) -> Pair:
+    """Two demos begun at once."""
+    figure, screen = rig.run("demo"), rig.terminal("demo")
+    return Pair(figure, robot_of(figure), screen)
+
+
+@pytest.fixture
+def screen(rig: Rig) -> Terminal:
+    terminal = rig.terminal("demo")
+    terminal.shows("step drive", "idle, nobody operates", "place")
+    return terminal
+
+
+def processes(robot: str) -> list[str]:
+    """Return the processes of a robot, as the whole machine tells."""
+    return [line for line in map(command_line, Path("/proc").glob("[0-9]*")) if robot in line.split()]
+
+
+def command_line(process: Path) -> str:
+    try:
+        return (process / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace")
+    except OSError:  # it ended meanwhile
+        return ""
+
+
+def children(demo: Process) -> str:
+    """Return the command lines of a demo's children."""
+    numbers = Path(f"/proc/{demo.process.pid}/task/{demo.process.pid}/children").read_text().split()
+    return " ".join(command_line(Path("/proc", number)) for number in numbers)
+
+
+def robot_of(demo: Process) -> str:
+    """Return the robot that a demo has made up, by what its children are told."""
+    name = re.compile(r"--robot (demo-[0-9a-f]{4}) ")
+    until(lambda: name.search(children(demo)), "the children of a demo")
+    return name.search(children(demo))[1]  # type: ignore[index]
+
+
+def leaves_nothing(robot: str) -> None:
+    until(lambda: not processes(robot), f"the end of {processes(robot)}", patience=4.0)
+
+
+def test_two_demos_at_once_do_not_disturb_each_other(pair: Pair) -> None:
+    figure, robot, screen = pair
+    screen.shows("idle, nobody operates", "place     x 0.00")
+    figure.says(" driving ")
+    assert "nobody operates" in screen.screen
+    assert robot_of(screen) != robot
+    screen.type(UP * 20)
+    screen.shows("[375, 390]", "driving, you operate", "moving    +0.")
+    screen.type("q")
+    assert screen.ends() == 0
+    assert len(processes(robot)) == 2
+
+
+@pytest.mark.parametrize("key", ["q", "\x03"], ids=["q", "Ctrl-C"])
+def test_a_key_ends_all_of_it(screen: Terminal, key: str) -> None:
+    robot = robot_of(screen)
+    assert robot in screen.screen
+    assert len(processes(robot)) == 2, "an actuator and a simulator"
+    screen.type(UP * 3)
+    screen.shows("[375, 373]", "driving, you operate", "chip      throttle 373")
+    screen.type(key)
+    assert screen.ends() == 0
+    assert processes(robot) == []
+    screen.is_as_found()
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
+def test_a_demo_that_is_ended_from_outside_leaves_no_process(screen: Terminal, number: int) -> None:
+    robot = robot_of(screen)
+    screen.type(UP)
+    screen.shows("driving, you operate")
+    screen.signal(number)
+    assert screen.ends() == (128 + number if number == signal.SIGTERM else -number)
+    leaves_nothing(robot)
+
+
+def test_a_demo_leaves_the_robot_of_the_config_file_alone(rig: Rig, screen: Terminal) -> None:
+    assert rig.ticks == (None, None), "the chip of the config file was woken"
+    screen.type("q")
+    assert screen.ends() == 0
+
+
+def test_without_a_terminal_it_drives_a_figure_and_says_so_every_second(pair: Pair) -> None:
+    figure, robot, _ = pair
+    assert figure.ends(patience=15.0) == 0
+    assert figure.lines[0] == "no terminal: driving a figure of eight for 10 s"
+    assert re.fullmatch(r"drove [1-9]\.\d m and stopped", figure.lines[-1])
+    lines = [LINE.match(line) for line in figure.lines[1:-1]]
+    assert all(lines), figure.text
+    seconds, states, speeds, throttles, steerings = zip(
+        *(line.groups() for line in lines if line), strict=True
+    )
+    assert [int(second) for second in seconds] == list(range(len(seconds)))
+    assert len(seconds) in (10, 11)
+    assert set(states) <= {"driving", "idle"}
+    assert max(map(float, speeds)) > 0.3
+    assert max(map(int, throttles)) > 370
+    assert min(map(int, steerings)) < 375 < max(map(int, steerings))
+    assert processes(robot) == []

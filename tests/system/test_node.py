@@ -1,0 +1,257 @@
+"""Programs that people write with `Node`, each a process of its own beside a running actuator."""
+
+import re
+import signal
+from collections.abc import Iterator
+
+import pytest
+from rig import NEUTRAL, Process, Rig, Watch, hear, repeating, until
+
+from zteleop.bus import clock
+from zteleop.bus.node import Node
+from zteleop.errors import ConfigError, MessageError
+from zteleop.messages import DriveStatus, Pwm, String, Twist, TwistStamped
+
+FULL_LEFT = (460, 370)
+"""What a turn means to a car that stands."""
+
+TURNING = """
+with node:
+    motors = node.publisher("cmd_vel", Twist)
+
+    @node.every({period})
+    def turn() -> None:
+        motors.publish(Twist.planar(angular=1.0))
+
+    node.spin()
+"""
+TICKING = """
+count, longest = 0, 0.0
+with node:
+    began = then = clock.now()
+
+    @node.every(0.01)
+    def tick() -> None:
+        global count, longest, then
+        now = clock.now()
+        count, longest, then = count + 1, max(longest, now - then), now
+
+    node.spin(2.0)
+print("ticked", count)
+"""
+READING = """
+with node:
+    notes = node.subscription("note", String)
+    print("listening", flush=True)
+    for message in notes:
+        print("heard", message.data, flush=True)
+        if message.data == "last":
+            break
+"""
+RAISING = """
+with node:
+    @node.on("note", String)
+    def handle(note: String) -> None:
+        raise RuntimeError(f"cannot handle {note.data}")
+
+    print("listening", flush=True)
+    node.spin()
+"""
+RAISING_TIMER = """
+with node:
+    @node.every(0.01)
+    def fail() -> None:
+        raise RuntimeError("cannot handle time")
+
+    node.spin()
+"""
+BLOCKING = """
+with node:
+    motors = node.publisher("cmd_vel", Twist)
+
+    @node.on("note", String)
+    def handle(note: String) -> None:
+        time.sleep(1.0)
+        motors.publish(Twist.planar(angular=1.0))
+        print("published", flush=True)
+
+    print("listening", flush=True)
+    node.spin()
+"""
+SLOW = """
+with node:
+    @node.on("slow", String)
+    def slow(note: String) -> None:
+        time.sleep(0.1)
+
+    @node.on("fast", String)
+    def fast(note: String) -> None:
+        print("newest", clock.now() - float(note.data), flush=True)
+
+    print("listening", flush=True)
+    node.spin()
+"""
+IDLE = """
+with node:
+    for topic in ("cmd_vel", "pwm"):
+        node.subscription(topic, TwistStamped if topic == "cmd_vel" else Pwm, lambda received: None)
+    print("listening", flush=True)
+    {ending}
+"""
+
+
+@pytest.fixture(scope="module")
+def rig(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Rig]:
+    with Rig(tmp_path_factory.mktemp("node")) as bench:
+        bench.actuator()
+        yield bench
+
+
+@pytest.fixture(scope="module", autouse=True)
+def ticker(rig: Rig) -> Process:
+    """A program that takes two seconds, in which the others run beside it."""
+    return program(rig, TICKING)
+
+
+@pytest.fixture(scope="module")
+def node(rig: Rig) -> Node:
+    """A node in this process."""
+    node = rig.node()
+    rig.hear(node)
+    return node
+
+
+def program(rig: Rig, text: str) -> Process:
+    start = f"""
+import time
+from zteleop import BusSettings, Node, Pwm, Twist, TwistStamped
+from zteleop.bus import clock
+from zteleop.messages import String
+
+node = Node("program", robot="bench", bus=BusSettings(connect=["{rig.endpoint}"], multicast=False))
+"""
+    return rig.program(start + text)
+
+
+def say(node: Node, topic: str, *texts: str) -> None:
+    """Say something to a program that says `listening`."""
+    publisher = node.publisher(topic, String)
+    until(lambda: publisher.heard, "somebody who listens")
+    for text in texts:
+        publisher.publish(String(text))
+
+
+def test_a_program_drives_as_source_program_and_ends_at_sigterm(rig: Rig, node: Node) -> None:
+    statuses = node.subscription("drive_status", DriveStatus)
+    turner = program(rig, TURNING.format(period=0.1))
+    until(lambda: rig.ticks == FULL_LEFT, "the wheels to the left")
+    status = hear(statuses, lambda status: status.state == "driving", "who drives")
+    assert (status.source, status.why) == ("program", "program drives")
+    turner.signal(signal.SIGTERM)
+    assert turner.ends() == 143
+    until(lambda: rig.ticks == NEUTRAL, "neutral", patience=0.7)
+    assert turner.text == ""
+
+
+def test_one_publish_lasts_half_a_second(rig: Rig) -> None:
+    turner = program(rig, TURNING.format(period=1.0))
+    until(lambda: rig.ticks == FULL_LEFT, "the wheels to the left")
+    assert 0.4 <= until(lambda: rig.ticks == NEUTRAL, "neutral") <= 0.65
+    turner.signal(signal.SIGTERM)
+    assert turner.ends() == 143
+
+
+def test_a_program_reads_messages_in_a_for_loop_in_order(rig: Rig, node: Node) -> None:
+    reader = program(rig, READING)
+    reader.says("listening")
+    say(node, "note", "first", "second", "last")
+    assert reader.ends() == 0
+    assert reader.lines == ["listening", "heard first", "heard second", "heard last"]
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+def test_a_program_that_waits_in_a_for_loop_can_be_ended(rig: Rig, number: int) -> None:
+    reader = program(rig, READING)
+    reader.says("listening")
+    reader.signal(number)
+    assert reader.ends(patience=2.0) in (143, -signal.SIGINT)
+
+
+@pytest.mark.parametrize(
+    ("ending", "code"),
+    [("pass", 0), ("raise SystemExit(7)", 7), ("raise KeyError('boom')", 1), ("node.close()", 0)],
+    ids=["falls off its end", "SystemExit", "an exception", "closes twice"],
+)
+def test_the_process_ends_with_its_with(rig: Rig, ending: str, code: int) -> None:
+    idler = program(rig, IDLE.format(ending=ending))
+    assert idler.ends(patience=3.0) == code
+    assert idler.text.count("Traceback") == (code == 1)
+
+
+def test_a_handler_that_raises_ends_the_program_with_its_traceback(rig: Rig, node: Node) -> None:
+    raiser = program(rig, RAISING)
+    raiser.says("listening")
+    say(node, "note", "this")
+    assert raiser.ends(patience=2.0) == 1
+    assert "Traceback (most recent call last):" in raiser.text
+    assert raiser.lines[-1] == "RuntimeError: cannot handle this"
+
+
+def test_a_timer_that_raises_ends_the_program_with_its_traceback(rig: Rig) -> None:
+    raiser = program(rig, RAISING_TIMER)
+    assert raiser.ends() == 1
+    assert raiser.lines[-1] == "RuntimeError: cannot handle time"
+
+
+def test_what_a_handler_says_after_a_long_pause_moves_nothing(rig: Rig, node: Node) -> None:
+    """What it knew of the robot is as old as the message it handles."""
+    statuses = node.subscription("drive_status", DriveStatus)
+    blocker = program(rig, BLOCKING)
+    blocker.says("listening")
+    with Watch(rig) as watch:
+        say(node, "note", "go")
+        blocker.says("published")
+        refused = hear(statuses, lambda status: "program is refused" in status.why, "a refusal")
+    assert "it is too old" in refused.why
+    assert watch.seen == {NEUTRAL}
+
+
+def test_a_slow_handler_delays_another_topic_by_one_run_at_most(rig: Rig, node: Node) -> None:
+    listener = program(rig, SLOW)
+    listener.says("listening")
+    slow, fast = node.publisher("slow", String), node.publisher("fast", String)
+    until(lambda: slow.heard and fast.heard, "somebody who listens")
+    with repeating(lambda: slow.publish(String("x")), 0.005):
+        for number in range(4):
+            fast.publish(String(str(clock.now())))
+            until(lambda number=number: len(listener.lines) > number + 1, "the newest")
+    delays = [float(line.split()[-1]) for line in listener.lines if line.startswith("newest")]
+    assert max(delays) < 0.1 + 0.05, delays
+
+
+def test_what_cannot_be_said_is_an_error_for_who_says_it(node: Node) -> None:
+    motors = node.publisher("cmd_vel", (TwistStamped, Twist))
+    with pytest.raises(MessageError, match=r"expected a finite number, found nan at Twist\.linear\.x"):
+        motors.publish(Twist.planar(float("nan")))
+    with pytest.raises(MessageError, match="expected TwistStamped or Twist, found Pwm"):
+        motors.publish(Pwm(375, 370))  # type: ignore[arg-type]
+    with pytest.raises(ConfigError, match=r"cmd_vel takes TwistStamped or Twist, found Pwm"):
+        node.publisher("cmd_vel", Pwm)
+
+
+def test_a_message_of_another_type_is_dropped_counted_and_said(rig: Rig, node: Node) -> None:
+    said: list[str] = []
+    listener = rig.node("listener")
+    listener.log.show = said.append
+    notes = listener.subscription("soil", Pwm)
+    say(node, "soil", "dry", "wet")
+    until(lambda: not list(notes.take()) and notes.dropped == 2, "two drops")
+    (line,) = said
+    assert re.search(
+        r"robot/bench/soil: dropped: expected zteleop_msgs/msg/Pwm, found 'std_msgs/msg/St", line
+    )
+
+
+def test_a_timer_keeps_its_rate(ticker: Process) -> None:
+    assert ticker.ends() == 0
+    assert int(ticker.says("ticked").split()[1]) == pytest.approx(200, rel=0.02)

@@ -1,0 +1,18 @@
+"""docs/checklist.md names tests; each of them is there."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+NAMED = re.findall(r"`(tests/\S+)::(\w+)`", (ROOT / "docs/checklist.md").read_text())
+
+
+@pytest.mark.parametrize(("path", "name"), NAMED)
+def test_a_line_is_done_when_its_test_is_there(path: str, name: str) -> None:
+    assert f"def {name}(" in (ROOT / path).read_text()
+
+
+def test_the_checklist_names_tests() -> None:
+    assert len(NAMED) > 50
