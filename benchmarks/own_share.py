@@ -110,6 +110,8 @@ def _press_all(
         actuator.ring()
         share.actuator.append(1000 * (driver.at - began))
         assert driver.at > began, "the key moved nothing"
+        node.alarms[-1].due = clock.now()  # the picture, which waits until the command is out
+        node.ring()
         began = time.perf_counter()
         paint(views[-1])
         share.draw.append(1000 * (time.perf_counter() - began))

@@ -113,7 +113,7 @@ def test_a_client_waits_for_its_router(opened: Callable[..., list[zenoh.Config]]
 
 def test_a_client_gives_up_in_words(opened: Callable[..., list[zenoh.Config]], clock: Clock) -> None:
     start = clock.time
-    opened(zenoh.ZError("Unable to connect at /root/zenoh/x.rs:1"))
+    opened(zenoh.ZError("Unable to connect at /src/zenoh/x.rs:1"))
     with pytest.raises(BusError) as error:
         open_session(BusSettings(mode="client", connect=["tcp/a:1", "tcp/b:2"], patience=1.0))
     assert str(error.value) == (
@@ -126,7 +126,7 @@ def test_a_peer_that_cannot_open_says_why_at_once(
     opened: Callable[..., list[zenoh.Config]], clock: Clock
 ) -> None:
     start = clock.time
-    opened(zenoh.ZError("Address already in use at /root/zenoh/x.rs:1"))
+    opened(zenoh.ZError("Address already in use at /src/zenoh/x.rs:1"))
     with pytest.raises(BusError, match=r"^cannot open the bus: Address already in use$"):
         open_session(BusSettings())
     assert clock.time == start
