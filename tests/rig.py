@@ -116,6 +116,16 @@ class Process:
     def signal(self, number: int) -> None:
         self.process.send_signal(number)
 
+    @property
+    def child(self) -> int | None:
+        """The process that this one started and watches over, if there is one now."""
+        pid = self.process.pid
+        try:
+            children = Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+        except OSError:
+            return None
+        return int(children[0]) if children else None
+
     def ends(self, patience: float = PATIENCE) -> int:
         """Wait for the end; return the exit code."""
         code = self.process.wait(patience)

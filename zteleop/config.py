@@ -5,7 +5,7 @@ import os
 import secrets
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import msgspec
 from msgspec import Struct, field
@@ -32,6 +32,8 @@ class Config(Struct, frozen=True, forbid_unknown_fields=True):
     """of a full stick, for inputs that drive while held"""
     steps: Steps = Steps()
     """of a key press, for inputs that drive in steps"""
+    journal: Literal["acts", "all", "off"] = "acts"
+    """what a robot keeps of the commands on its disk: who acted, every one, nothing"""
     drivers: dict[str, dict[str, Any]] = {}
     """settings of each driver by name"""
 
@@ -98,6 +100,11 @@ def own_name() -> str:
         raise ConfigError(
             f"cannot keep a robot's name in {file}: {error.strerror}; say --robot NAME"
         ) from None
+
+
+def state_folder(robot: str) -> Path:
+    """Return where what a robot must not forget is kept across restarts."""
+    return _xdg("XDG_STATE_HOME", ".local/state") / "robots" / robot_name(robot)
 
 
 def _kept_name(file: Path) -> str:

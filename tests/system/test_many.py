@@ -122,7 +122,6 @@ def test_an_actuator_that_starts_again_under_a_stream_waits_until_it_lets_go(
             stands(rig, *PATTERN)
             actuator.signal(signal.SIGKILL)
             actuator.ends()
-            assert rig.ticks == PATTERN, "a chip keeps its last pulse"
             again = rig.actuator()
             again.says("keyboard is refused: it was moving before")
             for _ in every(0.005, 100):

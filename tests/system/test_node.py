@@ -136,7 +136,7 @@ node = Node("program", robot="bench", bus=BusSettings(connect=["{rig.endpoint}"]
 def say(node: Node, topic: str, *texts: str) -> None:
     """Say something to a program that says `listening`."""
     publisher = node.publisher(topic, String)
-    until(lambda: publisher.heard, "somebody who listens")
+    until(lambda: publisher.matched, "somebody who listens")
     for text in texts:
         publisher.publish(String(text))
 
@@ -220,7 +220,7 @@ def test_a_slow_handler_delays_another_topic_by_one_run_at_most(rig: Rig, node: 
     listener = program(rig, SLOW)
     listener.says("listening")
     slow, fast = node.publisher("slow", String), node.publisher("fast", String)
-    until(lambda: slow.heard and fast.heard, "somebody who listens")
+    until(lambda: slow.matched and fast.matched, "somebody who listens")
     with repeating(lambda: slow.publish(String("x")), 0.005):
         for number in range(4):
             fast.publish(String(str(clock.now())))

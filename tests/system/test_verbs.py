@@ -24,7 +24,10 @@ TOPICS = [
     "/bench/drive_status",
     "/bench/log",
     "/bench/pwm",
+    "/bench/stop",
     "/bench/vehicle",
+    "/bench/watchdog",
+    "/bench/why",
 ]
 HOSTILE = "\x1b[2J\x1b]0;owned\x07\x9b31m\x7f\x85\r\u202e"
 PULSE_SILENCE, MARGIN = 0.5, 0.15

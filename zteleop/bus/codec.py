@@ -5,6 +5,7 @@ The sample's encoding names the type, such as `application/json;geometry_msgs/ms
 
 import struct
 from collections.abc import Callable, Iterable
+from functools import cache
 from math import isfinite
 from typing import Any
 
@@ -28,19 +29,27 @@ def encoding_of(kind: type[Message]) -> str:
 
 
 def encode(message: Message) -> bytes:
-    """Return a message's bytes; raises MessageError for a number that is not finite."""
+    """Return a message's bytes; raises MessageError for what no reader would take."""
+    kind = type(message)
     try:
         payload = _encode_json(message)
+        _reader(kind)(payload)
+    except msgspec.ValidationError as error:
+        _check_finite(msgspec.to_builtins(message), kind.__name__)  # which JSON writes as null
+        raise MessageError(f"cannot send {kind.__name__}: {error}") from None
     except (TypeError, ValueError, OverflowError) as error:
-        raise MessageError(f"cannot send {type(message).__name__}: {error}") from None
-    if b"null" in payload:  # how JSON writes NaN and infinity
-        _check_finite(msgspec.to_builtins(message), type(message).__name__)
+        raise MessageError(f"cannot send {kind.__name__}: {error}") from None
     return payload
+
+
+@cache
+def _reader(kind: type[Message]) -> Decoder:
+    return msgspec.json.Decoder(kind).decode
 
 
 def decoders(kinds: Iterable[type[Message]]) -> dict[str, Decoder]:
     """Return how to read each encoding a topic accepts."""
-    return {encoding_of(kind): msgspec.json.Decoder(kind).decode for kind in kinds}
+    return {encoding_of(kind): _reader(kind) for kind in kinds}
 
 
 def decode(payload: bytes, encoding: str, accepted: dict[str, Decoder]) -> Message:

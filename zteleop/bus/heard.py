@@ -6,7 +6,9 @@ from zteleop.bus import clock
 from zteleop.bus.subscription import Subscription
 from zteleop.messages import Beat, Vehicle
 
-PATIENCE = 1.0
+PATIENCE, START = 1.0, 6.0
+"""s for the robot to be heard, and then for its start to be over."""
+NEVER = float("-inf")
 _POLL = 0.002
 
 
@@ -15,30 +17,37 @@ class Heard:
 
     def __init__(self, beats: Subscription[Beat], vehicles: Subscription[Vehicle]) -> None:
         self._beats, self._vehicles = beats, vehicles
-        self._vehicle: Vehicle | None = None
-        self._patience = PATIENCE
+        self._waited = False
         self.beat: Beat | None = None
+        self.vehicle: Vehicle | None = None
         self.at = float("-inf")
         """When the beat was heard, by the bus clock."""
 
     @property
-    def vehicle(self) -> Vehicle | None:
-        self._vehicle = self._vehicles.newest() or self._vehicle
-        return self._vehicle
+    def there(self) -> bool:
+        """Beat and vehicle have been heard."""
+        return self.beat is not None and self.vehicle is not None
 
-    def wait(self) -> None:
-        """Wait, once, for the first beat and for the vehicle.
+    @property
+    def ready(self) -> bool:
+        """It is there, and its start is over."""
+        return self.beat is not None and self.vehicle is not None and self.vehicle.ready
 
-        What moves before a beat would have begun before the robot; neutral pulses are the vehicle's own.
+    def wait(self) -> bool:
+        """Wait, once, for the robot to be heard, and while it starts; True when it is there.
+
+        What moves before a beat, or before the start is over, would have begun too early to drive it.
         """
-        give_up = clock.now() + self._patience
-        self._patience = 0.0
-        while (self.beat is None or self.vehicle is None) and clock.now() < give_up:
-            self.listen()
+        began, self._waited = (NEVER if self._waited else clock.now()), True
+        self.listen()
+        while not self.ready and clock.now() - began < (START if self.there else PATIENCE):
             time.sleep(_POLL)
+            self.listen()
+        return self.there
 
     def listen(self) -> None:
-        """Take in the beat that arrived last."""
+        """Take in what arrived last."""
+        self.vehicle = self._vehicles.newest() or self.vehicle
         beat = self._beats.newest()
         if beat:
             self.beat, self.at = beat, clock.now()

@@ -1,4 +1,7 @@
-"""What a node says in words, on the bus and to one listener here: each subject once a second, ten in all."""
+"""What a node says in words, on the bus and to one listener here.
+
+Each subject once a second; warnings, which others cause, ten a second in all.
+"""
 
 from collections.abc import Callable
 
@@ -31,7 +34,7 @@ class NodeLog:
         """Say a sentence, unless its subject, or too much else, was spoken of within the last second."""
         now = clock.now()
         self._said = {said: at for said, at in self._said.items() if now - at < 1.0}
-        if subject in self._said or len(self._said) >= _A_SECOND:
+        if subject in self._said or (level == Log.WARN and len(self._said) >= _A_SECOND):
             self._held_back += 1
             return
         self._said[subject] = now

@@ -51,7 +51,7 @@ class Loop:
         os.close(self._ear)
 
     def stop(self) -> None:
-        """End `run` after the action at hand; safe from any thread."""
+        """End the present run after the action at hand, or the next; safe from any thread."""
         self._running = False
         self._ring()
 
@@ -84,20 +84,26 @@ class Loop:
         self._files.pop(file, None)
 
     def run(self, until: float | None = None) -> None:
-        """Run actions until `stop`, or until a time of the bus clock."""
-        while self._running and (until is None or clock.now() < until):
-            self.run_once(until)
+        """Run actions until `stop`, or until a time of the bus clock; what is ready is done even then."""
+        try:
+            while self._running:
+                self.run_once(until)
+                if until is not None and clock.now() >= until:
+                    return
+        finally:
+            self._running = True
 
     def run_once(self, until: float | None = None) -> None:
         """Wait for the next thing to do, and do what is due."""
         due = min((timer.due for timer in self._timers), default=FAR)
-        due = min(due, until or FAR)
+        due = min(due, FAR if until is None else until)
         timeout = max(0.0, min(due - clock.now(), LONGEST_WAIT))
         readable = select.select([self._ear, *self._files], [], [], 0 if self._ready else timeout)[0]
         if self._ear in readable:
             self._answer()
         for _ in range(len(self._ready)):
-            self._run(self._ready.popleft())
+            if self._running:  # else the next run does it
+                self._run(self._ready.popleft())
         for file in readable:
             if file in self._files:
                 self._run(self._files[file])

@@ -47,9 +47,19 @@ def resolve(text: str, robot: str | None) -> Name:
     parts = text.removeprefix("/").removeprefix("robot/").rstrip("/").split("/")
     if not absolute and (len(parts) == 1 or _known(parts[0])):
         if robot is None:
-            raise ConfigError(f"topic {text!r} names no robot; say ROBOT/{text} or --robot ROBOT")
+            raise ConfigError(
+                f"topic {text!r} names no robot; say ROBOT/{text}, --robot ROBOT or Node(..., robot='ROBOT')"
+            )
         parts = [robot, *parts]
+    elif not absolute and robot not in (None, parts[0]) and not _known(parts[1]):
+        raise ConfigError(
+            f"{text!r} could be robot {parts[0]}'s or {robot}'s; say /{text} or /{robot}/{text}"
+        )
     if len(parts) < 2:
+        if _known(parts[0]):
+            raise ConfigError(
+                f"a topic is /ROBOT/TOPIC, found {text!r}; say {parts[0]}, or /ROBOT/{parts[0]}"
+            )
         raise ConfigError(
             f"a topic is ROBOT/TOPIC, such as {parts[0] or 'archangel'}/cmd_vel; found {text!r}"
         )

@@ -2,7 +2,8 @@
 
 import secrets
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any, Self, TypeVar
 
 import zenoh
@@ -17,11 +18,13 @@ from zteleop.bus.session import BusSettings, open_session
 from zteleop.bus.subscription import Pump, Received, Subscription
 from zteleop.bus.topics import topic_of
 from zteleop.control.proof import Prover
-from zteleop.errors import ConfigError
+from zteleop.errors import BusError, ConfigError
 from zteleop.messages import Beat, Log, Message, Vehicle
 
 M = TypeVar("M", bound=Message)
+T = TypeVar("T")
 Types = type[M] | tuple[type[M], ...]
+_GLANCE = 0.01
 _SENDER_BITS = 53  # what every JSON reader can count
 
 
@@ -38,13 +41,20 @@ class Node:
     ) -> None:
         self.name, self.robot = chunk(name, "a node's name"), robot_name(robot) if robot else None
         self.session = session or open_session(bus or BusSettings())
+        try:
+            self._set_up()
+        except BaseException:
+            self.session.close()  # type: ignore[no-untyped-call]
+            raise
+
+    def _set_up(self) -> None:
         self._loop = Loop(before_each=self._listen)
-        self._spinning = False
+        self._handles = self._closed = False
         self._pumps: list[Pump[Any]] = []
         self._tokens: list[zenoh.LivelinessToken] = []
         self._heard: dict[str, Heard] = {}
         self._log_publisher: Publisher[Log] | None = None
-        self.log = NodeLog(name, self._say, _to_stderr)
+        self.log = NodeLog(self.name, self._say, _to_stderr)
         if self.robot:
             self._token(presence.node_key(self.robot, self.name))
             self._log_publisher = self.publisher("log", Log)
@@ -54,11 +64,14 @@ class Node:
         return self
 
     def __exit__(self, *exc: object) -> None:
-        self.close()
-        self._undo_signals()
+        try:
+            self.close()
+        finally:
+            self._undo_signals()
 
     def close(self) -> None:
-        """Leave the bus. Unclosed, zenoh would keep the process for ever."""
+        """Leave the bus: others see this node go, and its threads end."""
+        self._closed = True
         self.session.close()  # type: ignore[no-untyped-call]
         for pump in self._pumps:
             pump.close()
@@ -82,12 +95,17 @@ class Node:
         if name.path == kind.name:
             name = Name(name.robot, f"{kind.name}/{chunk(source, 'a source')}")
         heard = self.heard(name.robot)
-        if wait:
-            heard.wait()
+        if wait and not heard.wait():
+            self.log.warn(
+                f"robot {name.robot} is not heard; what is said on {topic} moves nothing until its actuator "
+                "is on (zteleop list shows who is)"
+            )
+        sender = secrets.randbits(_SENDER_BITS)
+        self._token(presence.sender_key(name.robot, sender))
         return Publisher(
             self._declare(name, kinds, kind.urgent),
             kinds,
-            Prover(secrets.randbits(_SENDER_BITS)),
+            Prover(sender),
             heard,
             self._listen_now,
         )
@@ -99,10 +117,12 @@ class Node:
         handler: Callable[[Received[M]], object] | None = None,
         *,
         depth: int | None = None,
+        complain: bool = True,
     ) -> Subscription[M]:
         """Return an inbox of a topic; of a command topic, from all its sources.
 
-        With a handler, `spin` hands it each message; without, iterate over the inbox.
+        With a handler, `spin` hands it each message; without, iterate over the inbox. What is no
+        message is dropped, counted, and said in the log unless somebody else does.
         """
         name, kinds = resolve(topic, self.robot), _tuple(types)
         kind = topic_of(name.path)
@@ -111,10 +131,17 @@ class Node:
         depth = depth or kind.depth
         subscriber = self.session.declare_subscriber(name.key, zenoh.handlers.RingChannel(depth))
         self._token(presence.endpoint_key(name, "sub", self.name, kinds))
-        inbox: Subscription[M] = Subscription(subscriber, codec.decoders(kinds), self._complain)
+        inbox: Subscription[M] = Subscription(
+            subscriber, codec.decoders(kinds), self._complain if complain else _keep_quiet, self._handling
+        )
         if handler:
             self._pumps.append(Pump(inbox, handler, self._loop))
         return inbox
+
+    def departures(self, handler: Callable[[int], object]) -> None:
+        """Hand each sender of commands that is gone, by its number, to a handler in `spin`."""
+        departures = presence.Departures(self.session, self._own_robot())
+        self._pumps.append(Pump(departures, handler, self._loop))
 
     def on(self, topic: str, types: Types[M]) -> Callable[[Callable[[M], object]], Callable[[M], object]]:
         """Decorate a function to handle each message of a topic in `spin`."""
@@ -149,25 +176,34 @@ class Node:
 
     def spin(self, seconds: float | None = None) -> None:
         """Run handlers and timers until `stop`, a signal, or for some seconds."""
-        self._spinning = True
-        try:
+        if self._closed:
+            raise BusError(f"node {self.name} is closed; spin inside its `with`")
+        with self._handling():
             self._loop.run(None if seconds is None else clock.now() + seconds)
-        finally:
-            self._spinning = False
+
+    def until(self, look: Callable[[], T], seconds: float) -> T:
+        """Spin until `look` finds something, at most for some seconds; return what it found last."""
+        give_up = clock.now() + seconds
+        while not (found := look()) and clock.now() < give_up:
+            self.spin(_GLANCE)
+        return found
 
     def stop(self) -> None:
-        """End `spin`; safe from any thread."""
+        """End the present `spin`, or the next one; safe from any thread."""
         self._loop.stop()
 
     def heard(self, robot: str | None = None) -> Heard:
         """Return what is heard of a robot, by default the node's own."""
-        robot = robot or self.robot
-        if robot is None:
-            raise ConfigError(f"node {self.name} has no robot; say Node({self.name!r}, robot=...)")
+        robot = robot or self._own_robot()
         if robot not in self._heard:
             beats = self.subscription(f"/{robot}/beat", Beat)
             self._heard[robot] = Heard(beats, self.subscription(f"/{robot}/vehicle", Vehicle))
         return self._heard[robot]
+
+    def _own_robot(self) -> str:
+        if self.robot is None:
+            raise ConfigError(f"node {self.name} has no robot; say Node({self.name!r}, robot=...)")
+        return self.robot
 
     def _declare(self, name: Name, kinds: tuple[type[Message], ...], urgent: bool) -> zenoh.Publisher:
         self._token(presence.endpoint_key(name, "pub", self.name, kinds))
@@ -183,9 +219,19 @@ class Node:
             heard.listen()
 
     def _listen_now(self) -> None:
-        """Listen on behalf of a publisher; within `spin` what counts was heard before the handler began."""
-        if not self._spinning:
+        """Listen on behalf of a publisher; in a handler what counts was heard before it began."""
+        if not self._handles:
             self._listen()
+
+    @contextmanager
+    def _handling(self) -> Iterator[None]:
+        """Let what is commanded meanwhile prove no more than what was heard before."""
+        outer, self._handles = self._handles, True
+        self._listen()
+        try:
+            yield
+        finally:
+            self._handles = outer
 
     def _token(self, key: str) -> None:
         self._tokens.append(self.session.liveliness().declare_token(key))
@@ -200,6 +246,10 @@ class Node:
 
 def _tuple(types: Types[M]) -> tuple[type[M], ...]:
     return types if isinstance(types, tuple) else (types,)
+
+
+def _keep_quiet(text: str) -> None:
+    """Leave it to somebody else to complain."""
 
 
 def _to_stderr(line: str) -> None:

@@ -1,6 +1,7 @@
 """Who is there: liveliness tokens that stand for nodes and for what they publish and hear.
 
     robot/<robot>/live/node/<node>/<process>
+    robot/<robot>/live/sender/<sender>                            of commands, in hexadecimal
     robot/<robot>/live/pub/<node>/<process>/<type>/<topic...>    and sub likewise
 
 A type's slashes are dots; a process is its host and number. Zenoh removes a token with its process.
@@ -10,7 +11,7 @@ import os
 import re
 import socket
 from collections.abc import Iterable
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import zenoh
 
@@ -18,6 +19,7 @@ from zteleop.bus.names import Name
 from zteleop.messages import Message
 
 Kind = Literal["pub", "sub"]
+DEPARTURES = 100
 
 
 class Endpoint(NamedTuple):
@@ -39,6 +41,25 @@ def process() -> str:
 
 def node_key(robot: str, node: str) -> str:
     return f"robot/{robot}/live/node/{node}/{process()}"
+
+
+def sender_key(robot: str, sender: int) -> str:
+    return f"robot/{robot}/live/sender/{sender:x}"
+
+
+class Departures:
+    """An inbox of the senders of commands that left, or whose process ended."""
+
+    def __init__(self, session: zenoh.Session, robot: str) -> None:
+        self.ring: Any = session.liveliness().declare_subscriber(
+            f"robot/{robot}/live/sender/*", zenoh.handlers.RingChannel(DEPARTURES)
+        )
+
+    def read(self, sample: zenoh.Sample) -> int | None:
+        """Return the sender whose token is gone; None for one that came."""
+        name = str(sample.key_expr).rpartition("/")[2]
+        left = sample.kind == zenoh.SampleKind.DELETE and len(name) <= 16
+        return int(name, 16) if left and set(name) <= set("0123456789abcdef") else None
 
 
 def endpoint_key(name: Name, kind: Kind, node: str, types: Iterable[type[Message]]) -> str:

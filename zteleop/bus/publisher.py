@@ -8,7 +8,7 @@ import zenoh
 from zteleop.bus import clock, codec
 from zteleop.bus.heard import Heard
 from zteleop.control.proof import Prover
-from zteleop.errors import MessageError
+from zteleop.errors import BusError, MessageError
 from zteleop.messages import Int16MultiArray, Message, Pwm, Twist, TwistStamped, Vehicle
 
 M = TypeVar("M", bound=Message)
@@ -33,7 +33,7 @@ class Publisher(Generic[M]):
         self._encodings = {kind: zenoh.Encoding(codec.encoding_of(kind)) for kind in types}
 
     @property
-    def heard(self) -> bool:
+    def matched(self) -> bool:
         """Somebody subscribes to this topic."""
         # The stub calls it a bool; it is an object, and always true.
         return bool(getattr(self._publisher.matching_status, "matching"))  # noqa: B009
@@ -67,7 +67,10 @@ class Publisher(Generic[M]):
         return encoding, codec.encode(message)
 
     def _put(self, message: M, encoding: zenoh.Encoding, payload: bytes) -> None:
-        self._publisher.put(payload, encoding=encoding, attachment=self._proof(message))
+        try:
+            self._publisher.put(payload, encoding=encoding, attachment=self._proof(message))
+        except zenoh.ZError as error:
+            raise BusError(f"cannot say a {type(message).__name__}: is its node closed? ({error})") from error
 
     def _proof(self, message: M) -> bytes | None:
         if not self._prover or not self._heard:

@@ -6,26 +6,28 @@ import re
 import time
 from typing import Annotated, Literal
 
+import zenoh
 from msgspec import Meta, Struct
 
 from zteleop.errors import BusError, ConfigError
 
-# One thread halves the latency of an idle link; zenoh reads this when it is imported.
-os.environ.setdefault(
-    "ZENOH_RUNTIME",
-    "(rx:(handover:app),acc:(handover:app),tx:(handover:app),net:(handover:app),app:(worker_threads:1))",
-)
-
-import zenoh
-
 PORT = 7447
-ROBOT_ENDPOINT = f"tcp/[::]:{PORT}"
+IF_FREE = "#exit_on_failure=false"
+"""After an endpoint to listen on: when another has it, go on without."""
+ROBOT_ENDPOINT = f"tcp/[::]:{PORT}{IF_FREE}"
 SAME_MACHINE = f"tcp/127.0.0.1:{PORT}"
+SAME_MACHINE_DOOR = f"{SAME_MACHINE}{IF_FREE}"
 _ENDPOINT = re.compile(
     r"(tcp|udp|tls|quic|ws)/(\[[0-9A-Fa-f:.%]+\]|[^\s/:\[\]]+):\d{1,5}([?#].*)?$|unixsock-stream/."
 )
+_RUNTIME = "ZENOH_RUNTIME"
+_THREADS = "(rx:({rx}),acc:(handover:app),tx:({tx}),net:(handover:app),app:(worker_threads:1))"
+_ONE_THREAD = _THREADS.format(rx="handover:app", tx="handover:app")
+"""Half the latency of an idle link."""
+_APART = _THREADS.format(rx="worker_threads:1", tx="worker_threads:1")
+"""For who passes messages on: receiving may wait for sending, and one thread would wait for itself."""
 _RETRY = 0.1
-_QUIET = 0.06
+_QUIET, _SETTLED = 0.06, 0.5
 
 
 class BusSettings(Struct, frozen=True, forbid_unknown_fields=True):
@@ -38,10 +40,14 @@ class BusSettings(Struct, frozen=True, forbid_unknown_fields=True):
     multicast: bool = True
     patience: Annotated[float, Meta(ge=0, le=3600)] = 3.0
     """s a client waits for its router"""
+    largest: Annotated[int, Meta(ge=65536, le=2**30)] = 2**28
+    """bytes of a message; a longer one is dropped on its way in"""
 
 
-def open_session(settings: BusSettings, *, settle: bool = False) -> zenoh.Session:
-    """Join the bus; with `settle`, first wait (at most 0.5 s) until everybody is found.
+def open_session(settings: BusSettings, *, settle: bool = False, door: bool = False) -> zenoh.Session:
+    """Join the bus; with `settle`, first wait (at most 1 s) until everybody is found.
+
+    With `door`, others join through this session.
 
     Raises ConfigError for an endpoint that is none, BusError when there is no router to a client.
     """
@@ -49,24 +55,45 @@ def open_session(settings: BusSettings, *, settle: bool = False) -> zenoh.Sessio
     give_up = time.monotonic() + settings.patience
     while True:
         try:
-            session = zenoh.open(config)
-            return _settle(session) if settle else session
+            session = _open(config, door or settings.mode == "router")
+            if settle:
+                _settle(session)
+            return session
         except zenoh.ZError as error:
             if settings.mode != "client" or time.monotonic() > give_up:
                 raise BusError(_words(settings, error)) from error
         time.sleep(_RETRY)
 
 
-def _settle(session: zenoh.Session) -> zenoh.Session:
+def _open(config: zenoh.Config, door: bool) -> zenoh.Session:
+    """Open with the threads that suit; zenoh looks at them once, and no child process should inherit them."""
+    if _RUNTIME in os.environ:
+        return zenoh.open(config)
+    os.environ[_RUNTIME] = _APART if door else _ONE_THREAD
+    try:
+        return zenoh.open(config)
+    finally:
+        del os.environ[_RUNTIME]
+
+
+def _settle(session: zenoh.Session) -> None:
     """Wait until no further peer has been found for a while: each tells of the ones it knows."""
+    try:
+        _await_quiet(session)
+    except BaseException:
+        session.close()  # type: ignore[no-untyped-call]
+        raise
+
+
+def _await_quiet(session: zenoh.Session) -> None:
     found: set[str] = set()
     quiet_at = time.monotonic() + _QUIET
-    while time.monotonic() < quiet_at:
+    end = time.monotonic() + _SETTLED
+    while time.monotonic() < min(quiet_at, end):
         now_found = {str(peer) for peer in [*session.info.peers_zid(), *session.info.routers_zid()]}
         if now_found != found:
             found, quiet_at = now_found, time.monotonic() + _QUIET
         time.sleep(0.005)
-    return session
 
 
 def _configure(settings: BusSettings, settle: bool) -> zenoh.Config:
@@ -82,10 +109,11 @@ def _configure(settings: BusSettings, settle: bool) -> zenoh.Config:
         "connect/timeout_ms": 0 if settings.mode == "client" else -1,  # -1: goes on trying behind our back
         "connect/exit_on_failure": settings.mode == "client",
         "connect/retry": {"period_init_ms": 100, "period_max_ms": 1000, "period_increase_factor": 1.5},
-        "listen/exit_on_failure": len(settings.listen) < 2,  # of several, what is taken is left out
+        "listen/exit_on_failure": True,
         "scouting/multicast/enabled": settings.multicast,
         "scouting/delay": 500 if settle and settings.multicast else 0,
         "transport/shared_memory/enabled": False,
+        "transport/link/rx/max_message_size": settings.largest,
         "transport/link/tx/lease": 1000,
         "transport/link/tx/keep_alive": 4,
     }

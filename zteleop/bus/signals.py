@@ -1,12 +1,16 @@
-"""A signal that ends a process unwinds every `with` first, once: the last word is neutral."""
+"""A signal that ends a process unwinds every `with` first, undisturbed: the last word is neutral."""
 
 import signal
 import threading
+import time
 from collections.abc import Callable
 from types import FrameType
 from typing import Any
 
 ENDING = (signal.SIGINT, signal.SIGTERM, *([signal.SIGHUP] if hasattr(signal, "SIGHUP") else []))
+UNDISTURBED = 1.0
+"""s after a signal in which a second Ctrl-C does not end what the first began to clean up."""
+_raised = float("-inf")
 _DEFAULTS = (signal.SIG_DFL, signal.default_int_handler)
 
 
@@ -27,8 +31,11 @@ def unwind() -> Callable[[], None]:
 
 
 def _raise(number: int, frame: FrameType | None) -> None:
-    for ending in ENDING:  # a second Ctrl-C must not end what the first began to clean up
-        signal.signal(ending, signal.SIG_IGN)
+    global _raised
+    now = time.monotonic()
+    if now - _raised < UNDISTURBED:
+        return
+    _raised = now
     if number == signal.SIGINT:
         raise KeyboardInterrupt
     raise SystemExit(128 + number)

@@ -2,8 +2,8 @@
 
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import suppress
-from typing import Any, Generic, NamedTuple, TypeVar
+from contextlib import AbstractContextManager, nullcontext, suppress
+from typing import Any, Generic, NamedTuple, Protocol, TypeVar
 
 import zenoh
 
@@ -15,6 +15,8 @@ from zteleop.errors import MessageError
 from zteleop.messages import Message
 
 M = TypeVar("M", bound=Message)
+T = TypeVar("T")
+T_co = TypeVar("T_co", covariant=True)
 
 
 class Received(NamedTuple, Generic[M]):
@@ -24,6 +26,7 @@ class Received(NamedTuple, Generic[M]):
     key: str
     proof: Proof | None
     at: float
+    """when it was read, by the bus clock"""
 
     @property
     def source(self) -> str:
@@ -39,8 +42,10 @@ class Subscription(Generic[M]):
         subscriber: "zenoh.Subscriber[Any]",
         accepted: dict[str, Decoder],
         complain: Callable[[str], None],
+        handling: Callable[[], AbstractContextManager[object]] = nullcontext,
     ) -> None:
         self.ring, self._accepted, self._complain = subscriber, accepted, complain
+        self._handling = handling
         self.dropped = 0
 
     def __iter__(self) -> Iterator[M]:
@@ -50,9 +55,9 @@ class Subscription(Generic[M]):
                 sample = self.ring.recv()
             except zenoh.ZError:
                 return
-            received = self.read(sample)
-            if received:
-                yield received.message
+            if received := self.read(sample):
+                with self._handling():  # what the body commands, it decided on what was heard before
+                    yield received.message
 
     def take(self) -> Iterator[Received[M]]:
         """Yield what has arrived, without waiting."""
@@ -88,16 +93,22 @@ class Subscription(Generic[M]):
         self._complain(f"{key}: dropped: {why}")
 
 
-class Pump(Generic[M]):
+class Ring(Protocol[T_co]):
+    """What a pump empties: a ring of samples, and how to read one."""
+
+    ring: Any
+
+    def read(self, sample: zenoh.Sample) -> T_co | None: ...
+
+
+class Pump(Generic[T]):
     """Wakes the loop for a subscription's handler.
 
     Its thread takes one sample and waits until the loop has emptied the ring, one message a
     round: a flood, or a slow handler, costs the other topics one run of that handler at most.
     """
 
-    def __init__(
-        self, subscription: Subscription[M], handler: Callable[[Received[M]], object], loop: Loop
-    ) -> None:
+    def __init__(self, subscription: Ring[T], handler: Callable[[T], object], loop: Loop) -> None:
         self._subscription, self._handler, self._loop = subscription, handler, loop
         self._sample: zenoh.Sample | None = None
         self._emptied = threading.Lock()  # held while the loop is at work; an Event costs three times as much
@@ -128,9 +139,13 @@ class Pump(Generic[M]):
         sample = self._sample
         try:
             received = sample and self._subscription.read(sample)
-            if received:
+            if received is not None:
                 self._handler(received)
         finally:
+            self._go_on_with_the_rest()
+
+    def _go_on_with_the_rest(self) -> None:
+        if not self._closed:
             self._sample = self._subscription.ring.try_recv()
             if self._sample is None:
                 self._go_on()

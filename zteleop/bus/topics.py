@@ -10,9 +10,12 @@ from zteleop.messages import (
     Message,
     Odometry,
     Pwm,
+    Stop,
     Twist,
     TwistStamped,
     Vehicle,
+    WatchdogStatus,
+    Why,
 )
 
 
@@ -33,11 +36,14 @@ class Topic(NamedTuple):
 TOPICS = {
     topic.name: topic
     for topic in (
-        Topic("cmd_vel", (TwistStamped, Twist), ("cmd_vel_stamped",), command=True, urgent=True),
-        Topic("pwm", (Pwm, Int16MultiArray), ("controls",), command=True, urgent=True),
+        Topic("cmd_vel", (TwistStamped, Twist), ("cmd_vel_stamped",), command=True, urgent=True, depth=100),
+        Topic("pwm", (Pwm, Int16MultiArray), ("controls",), command=True, urgent=True, depth=100),
+        Topic("stop", (Stop,), urgent=True, depth=100),
         Topic("beat", (Beat,), urgent=True, depth=1),
         Topic("drive_status", (DriveStatus,), urgent=True),
         Topic("vehicle", (Vehicle,), depth=1),
+        Topic("why", (Why,), depth=1),
+        Topic("watchdog", (WatchdogStatus,), depth=1),
         Topic("odom", (Odometry,)),
         Topic("log", (Log,), depth=100),
     )
@@ -48,4 +54,5 @@ ALIASES = {alias: topic.name for topic in TOPICS.values() for alias in topic.ali
 
 def topic_of(path: str) -> Topic:
     """Return the table's topic that a path such as `cmd_vel/keyboard` belongs to, else a plain one."""
-    return TOPICS.get(path) or TOPICS.get(path.partition("/")[0]) or Topic(path, ())
+    head = TOPICS.get(path.partition("/")[0])
+    return head if head and (head.name == path or head.command) else Topic(path, ())

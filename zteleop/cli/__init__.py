@@ -11,6 +11,9 @@ VERBS = {
     "list": "list the topics of every robot on the bus",
     "echo": "print what a topic says",
     "pub": "say something on a topic",
+    "why": "say why a robot moves as it does, or does not",
+    "watchdog": "show what a robot's watchdog sees",
+    "neutral": "bring a chip to rest with nothing else running",
     "check": "check a config file",
     "schema": "write the JSON Schema of every message and of config.toml",
 }

@@ -1,17 +1,30 @@
 import argparse
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
 
 import msgspec
 
 from zteleop import config
 from zteleop.bus import presence
 from zteleop.bus.node import Node
-from zteleop.bus.session import ROBOT_ENDPOINT, open_session
+from zteleop.bus.session import ROBOT_ENDPOINT, BusSettings, open_session
 from zteleop.cli import options
 from zteleop.config import Config
 from zteleop.control.drive import DriveSettings
-from zteleop.drivers import DRIVERS, open_driver
+from zteleop.drivers import DRIVERS, open_driver, output_enable
+from zteleop.drivers.output_enable import OutputEnable
 from zteleop.errors import ConfigError, DeviceError
-from zteleop.nodes.actuator import Actuator
+from zteleop.nodes import realtime
+from zteleop.nodes.child import Child
+from zteleop.nodes.stop_file import StopFile
+from zteleop.nodes.watchdog import Watchdog
+
+LARGEST = 2**20
+"""bytes of a message that passes a robot's door: whoever sends more would hold up the commands of others."""
+PRIORITY, OOM_SCORE = 20, -900
+CHILD = [sys.executable, "-m", "zteleop", "actuator"]
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -26,23 +39,94 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--neutral-offset", metavar="TICKS", type=int, default=0, help="shift the throttle's neutral"
     )
+    parser.add_argument(
+        "--journal",
+        choices=["acts", "all", "off"],
+        help="what to keep of the commands on disk: who acted (default), every one, nothing",
+    )
+    parser.add_argument("--link", type=int, help=argparse.SUPPRESS)
     options.add_parent(parser)
 
 
-def run(arguments: argparse.Namespace) -> None:
+def run(arguments: argparse.Namespace) -> int:
+    """Watch over an actuator, or with --link be the one that is watched."""
+    if arguments.link is not None:
+        from zteleop.cli import obey  # what the watchdog itself need not hold in memory
+
+        return obey.run(arguments.link)
     settings = options.load(arguments)
     robot = settings.robot or config.own_name()
-    bus = settings.bus
-    if bus.mode == "peer" and bus.multicast and not bus.listen:
-        bus = msgspec.structs.replace(bus, listen=[ROBOT_ENDPOINT, "tcp/[::]:0"])
-    with open_session(bus, settle=True) as session:
-        _only_one(presence.holders(session, robot, "actuator"), robot)
-        with Node("actuator", robot, session=session) as node:
-            options.end_with_parent(arguments, node)
-            _yield_to_the_first(presence.holders(session, robot, "actuator"), robot)
-            name = arguments.driver or settings.driver
-            driver = open_driver(name, settings.driver_settings(name, robot))
-            Actuator(node, _tuned(settings, arguments, driver.tick_us), driver).run()
+    name = arguments.driver or settings.driver
+    chip = settings.driver_settings(name, robot)
+    hand = open_driver(name, chip)
+    tuned = msgspec.structs.replace(
+        settings,
+        robot=robot,
+        driver=name,
+        drive=_tuned(settings, arguments, hand.tick_us),
+        journal=arguments.journal or settings.journal,
+    )
+    with ExitStack() as stack:
+        folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="zteleop-"))
+        bus, childs_bus = _door(tuned.bus, f"unixsock-stream/{folder}/bus")
+        node = stack.enter_context(_join(robot, bus))
+        options.end_with_parent(arguments, node)
+        pin = output_enable(name, chip)
+        if pin:
+            stack.callback(pin.close)
+        _privileges(node)
+        orders = msgspec.json.encode(msgspec.structs.replace(tuned, bus=childs_bus))
+        child = Child(CHILD, orders, hand.shared())
+        stop_file = StopFile(config.state_folder(robot) / "stop", node.log.error)
+        return Watchdog(node, tuned.drive, hand, child, stop_file, _switch(node, pin)).run()
+
+
+@contextmanager
+def _join(robot: str, bus: BusSettings) -> Iterator[Node]:
+    """Join the bus as the only watchdog of that robot; of two that start at once, one goes on."""
+    with open_session(bus, settle=True, door=True) as session:
+        _only_one(presence.holders(session, robot, "watchdog"), robot)
+        with Node("watchdog", robot, session=session) as node:
+            holders = presence.holders(session, robot, "watchdog")
+            _only_one([holder for holder in holders if holder < presence.process()], robot)
+            yield node
+
+
+def _only_one(holders: list[str], robot: str) -> None:
+    if holders:
+        raise DeviceError(
+            f"robot {robot} has an actuator already: {', '.join(holders)}; stop it, or say --robot"
+        )
+
+
+def _switch(node: Node, pin: OutputEnable | None) -> Callable[[bool], None]:
+    """Return what lets the chip's outputs through, or cuts them, where a pin can."""
+
+    def switch(on: bool) -> None:
+        try:
+            if pin:
+                pin.enable() if on else pin.disable()
+        except DeviceError as error:
+            node.log.error(str(error), "oe")
+
+    return switch
+
+
+def _door(bus: BusSettings, private: str) -> tuple[BusSettings, BusSettings]:
+    """Return how the watchdog joins the bus, and how its actuator does: through the watchdog's door."""
+    if bus.mode == "client":
+        return bus, bus
+    listen = bus.listen
+    if bus.mode == "peer" and bus.multicast and not listen:
+        listen = [ROBOT_ENDPOINT, "tcp/[::]:0"]
+    childs = BusSettings(mode="client", connect=[private], multicast=False, largest=LARGEST)
+    return msgspec.structs.replace(bus, listen=[*listen, private], largest=LARGEST), childs
+
+
+def _privileges(node: Node) -> None:
+    missing = realtime.take(PRIORITY, OOM_SCORE)
+    if missing:
+        node.log.info(f"runs without {', '.join(missing)}: not permitted; deploy/README.md says how")
 
 
 def _tuned(settings: Config, arguments: argparse.Namespace, tick_us: float) -> DriveSettings:
@@ -58,15 +142,3 @@ def _tuned(settings: Config, arguments: argparse.Namespace, tick_us: float) -> D
         return msgspec.convert(values, DriveSettings)
     except msgspec.ValidationError as error:
         raise ConfigError(f"{error}") from None
-
-
-def _only_one(holders: list[str], robot: str) -> None:
-    if holders:
-        raise DeviceError(
-            f"robot {robot} has an actuator already: {', '.join(holders)}; stop it, or say --robot"
-        )
-
-
-def _yield_to_the_first(holders: list[str], robot: str) -> None:
-    """Of two that start at once, one goes on."""
-    _only_one([holder for holder in holders if holder < presence.process()], robot)

@@ -11,7 +11,7 @@ from typing import IO
 
 from zteleop.bus import clock
 from zteleop.bus.node import Node
-from zteleop.bus.session import SAME_MACHINE, BusSettings
+from zteleop.bus.session import SAME_MACHINE_DOOR, BusSettings
 from zteleop.cli.keyboard import drive_with_keys, find_vehicle
 from zteleop.config import Config
 from zteleop.errors import BusError
@@ -38,7 +38,7 @@ def run(arguments: argparse.Namespace) -> int:
         where = ["--config", str(folder / "config.toml"), "--robot", robot, "--no-multicast-scouting"]
         children = [
             stack.enter_context(
-                child(["actuator", *where, "--listen", endpoint, "--listen", SAME_MACHINE], log)
+                child(["actuator", *where, "--listen", endpoint, "--listen", SAME_MACHINE_DOOR], log)
             ),
             stack.enter_context(
                 child(["sim", *where, "--connect", endpoint, "--listen", "tcp/127.0.0.1:0"], log)
@@ -117,7 +117,7 @@ def await_robot(node: Node, children: "list[subprocess.Popen[bytes]]", log: Path
     odoms = node.subscription("odom", Odometry)
     give_up = clock.now() + START
     while clock.now() < give_up and all(process.poll() is None for process in children):
-        if node.heard().vehicle and odoms.newest():
+        if node.heard().ready and odoms.newest():
             return
         node.spin(0.01)
     words = log.read_text().strip().splitlines()

@@ -36,6 +36,11 @@ def add(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_robot(parser: argparse.ArgumentParser) -> None:
+    """Add the robot as the first thing typed after the verb, besides --robot."""
+    parser.add_argument("named", metavar="ROBOT", nargs="?", type=_robot, help="the robot, as with --robot")
+
+
 def add_config(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--config", metavar="FILE", type=Path, help="settings (default: ./config.toml, then the user's)"
@@ -51,8 +56,9 @@ def load(options: argparse.Namespace) -> Config:
         "listen": options.listen,
         "multicast": False if options.no_multicast_scouting else None,
     }
+    robot = getattr(options, "named", None) or options.robot or settings.robot
     bus = msgspec.structs.replace(settings.bus, **{k: v for k, v in typed.items() if v is not None})
-    return msgspec.structs.replace(settings, bus=bus, robot=options.robot or settings.robot)
+    return msgspec.structs.replace(settings, bus=bus, robot=robot)
 
 
 def find_robot(session: zenoh.Session, settings: Config) -> str:

@@ -3,7 +3,6 @@ from typing import Any
 
 import msgspec
 
-from zteleop.bus import clock
 from zteleop.bus.names import resolve
 from zteleop.bus.node import Node
 from zteleop.bus.publisher import Publisher
@@ -22,7 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("topic", help="such as archangel/cmd_vel")
     parser.add_argument("type", help="such as geometry_msgs/msg/Twist, or Twist")
     parser.add_argument("values", nargs="?", default="{}", help="YAML: '{linear: {x: 0.2}}'; the rest is 0")
-    parser.add_argument("-r", "--rate", metavar="HZ", type=_positive, default=1.0, help="default: 1")
+    parser.add_argument("-r", "--rate", metavar="HZ", type=_rate_hz, default=1.0, help="default: 1")
     parser.add_argument("-1", "--once", action="store_true", help="say it once and end")
     parser.add_argument("-t", "--times", metavar="N", type=_count, help="say it N times and end")
 
@@ -35,7 +34,7 @@ def run(arguments: argparse.Namespace) -> None:
     robot = options.robot_of(arguments.topic, settings)
     with options.join("pub", msgspec.structs.replace(settings, robot=robot)) as node:
         name = resolve(arguments.topic, node.robot)
-        publisher = node.publisher(f"/{name.robot}/{name.path}", kind)
+        publisher = node.publisher(f"/{name.robot}/{name.path}", kind, wait=False)
         _wait(node, publisher, topic_of(name.path).command)
         _say(node, publisher, message, arguments.rate, times)
 
@@ -56,7 +55,7 @@ def _say(node: Node, publisher: Publisher[Message], message: Message, rate: floa
     try:
         node.spin()
     finally:
-        rest = _rest(message, node.heard().vehicle) if times is None and publisher.sender else None
+        rest = _rest(message, node.heard().vehicle) if said != times and publisher.sender else None
         if rest:
             publisher.publish(rest)
 
@@ -73,17 +72,15 @@ def _rest(message: Message, vehicle: Vehicle | None) -> Message | None:
 
 
 def _wait(node: Node, publisher: Publisher[Message], command: bool) -> None:
-    """Wait until somebody hears; a command also needs a beat of the robot to prove that it is new."""
-    give_up = clock.now() + PATIENCE
-    while clock.now() < give_up:
-        heard = node.heard()
-        heard.listen()
-        if publisher.heard and (heard.beat or not command):
-            return
-        node.spin(0.005)
-    if command:
+    """Wait until somebody hears; for a command until the robot that it proves its age to has started."""
+    heard = node.heard()
+    matched = node.until(lambda: publisher.matched and (heard.beat or not command), PATIENCE)
+    if command and not matched:
         raise BusError(f"robot {node.robot} does not answer; is its actuator on? zteleop list shows who is")
-    print("nobody hears this yet", flush=True)
+    if command:
+        heard.wait()
+    elif not matched:
+        print("nobody hears this yet", flush=True)
 
 
 def _yaml(text: str) -> Any:
@@ -104,8 +101,11 @@ def _count(text: str) -> int:
     return int(text)
 
 
-def _positive(text: str) -> float:
-    value = float(text)
-    if not 0 < value <= 1000:
+def _rate_hz(text: str) -> float:
+    try:
+        rate_hz = float(text)
+    except ValueError:
+        rate_hz = 0.0
+    if not 0 < rate_hz <= 1000:
         raise argparse.ArgumentTypeError(f"a rate is more than 0 and at most 1000 Hz, found {text}")
-    return value
+    return rate_hz

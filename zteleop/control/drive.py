@@ -7,12 +7,14 @@ from msgspec import Struct, field
 
 from zteleop.control.calibration import Calibration
 from zteleop.control.gate import Deadlines, Gate, Refusal
+from zteleop.control.hold import HOLDS, Holds
 from zteleop.control.limiter import Limits, TwistLimiter, WheelLimiter
 from zteleop.control.mixer import Ackermann, Mixer, Wheels
 from zteleop.control.mux import Claim, Mux, Source
 from zteleop.control.proof import Proof, Prover
 from zteleop.control.servo import Servo
-from zteleop.messages import Beat, Pwm, State, Twist
+from zteleop.control.stop import Latch, describe
+from zteleop.messages import Beat, Pwm, State, Stop, Twist
 
 DONKEYCAR = {
     "throttle": Servo(channel=0, min_us=897.6, neutral_us=1509.6, max_us=2040.0),
@@ -51,6 +53,15 @@ class DriveSettings(Struct, frozen=True, forbid_unknown_fields=True):
             raise ValueError(f"each servo needs a channel of its own, found {channels}")
 
 
+class Refused(NamedTuple):
+    """What the gate last said to a source."""
+
+    why: Refusal
+    since: float
+    at: float
+    times: int
+
+
 class Step(NamedTuple):
     """What one step decided, and why."""
 
@@ -64,13 +75,18 @@ class Step(NamedTuple):
 class Drive:
     """Takes commands in, gives pulses out; owns no clock and no chip."""
 
-    def __init__(self, settings: DriveSettings, tick_us: float, epoch: int, now: float) -> None:
+    def __init__(
+        self, settings: DriveSettings, tick_us: float, epoch: int, now: float, mux: Mux | None = None
+    ) -> None:
         self.settings = settings
         self.gate = Gate(settings.deadlines, epoch, now)
         self._sources = settings.known_sources
-        self.mux = Mux(self._sources, settings.deadlines.operator)
+        self.mux = mux or Mux(self._sources, settings.deadlines.operator)
         self.refused = self.clamped = 0
-        self.last_refusal: tuple[str, Refusal, float] | None = None
+        self.refusals: dict[str, Refused] = {}
+        self.latch = Latch()
+        self.holds = Holds()
+        self._gone: tuple[str, float] | None = None
         self._limiter = TwistLimiter(settings.limits, settings.mixer)
         self._wheel_limiter = WheelLimiter(settings.limits, settings.mixer, settings.servos)
         self.calibration = Calibration(settings.servos, tick_us)
@@ -86,6 +102,32 @@ class Drive:
         self.gate.restart(epoch, now)
         self.mux.clear()
         self._stepped = now
+
+    def hold(self, reason: str, state: State, why: str, now: float) -> None:
+        """Keep the robot at rest for a reason until `free`; nothing softens it."""
+        self.holds.add(reason, state, why, now)
+        self.mux.clear()
+
+    def free(self, reason: str, now: float) -> None:
+        """Drop a reason to rest; whoever drives next must leave neutral after now."""
+        if self.holds.drop(reason):
+            self.gate.begin_after(now)
+
+    def stop(self, said: Stop, now: float) -> bool:
+        """Obey a stop or a release of one; True when that changed anything."""
+        changed = self.latch.obey(said)
+        if self.latch.stop is None:
+            self.free("stop", now)
+        elif changed:
+            self.hold("stop", "stopped", describe(self.latch.stop), now)
+        return changed
+
+    def withdraw(self, sender: int, now: float) -> None:
+        """Let go what a sender held whose process is gone."""
+        for claim in self.mux.claims:
+            if claim.sender == sender:
+                self._gone = (claim.source, now)
+        self.mux.release(sender)
 
     def receive(self, source: str, command: Twist | Pwm, proof: Proof | None, now: float) -> Refusal | None:
         """Judge a command that arrived; return why it does not count."""
@@ -104,7 +146,7 @@ class Drive:
     def step(self, now: float) -> Step:
         """Decide the pulses of now."""
         self._stepped = now
-        claim = self.mux.select(now)
+        claim = self.mux.select(now) if not self.holds else None
         wheels = self._wheel_limiter.limit(self._obey(claim, now), now)
         if claim is None or wheels is None:
             return Step(*self._explain_rest(now), None, self.calibration.rest, self.calibration.neutral_us)
@@ -113,19 +155,25 @@ class Drive:
 
     def _refuse(self, source: str, refusal: Refusal, now: float) -> Refusal:
         self.refused += 1
-        self.last_refusal = (source, refusal, now)
+        last = self.refusals.get(source)
+        since, times = (last.since, last.times) if last and last.why == refusal else (now, 0)
+        self.refusals[source] = Refused(refusal, since, now, times + 1)
         return refusal
 
     def _explain_rest(self, now: float) -> tuple[State, str]:
         state, why = self._find_rest(now)
-        if self.last_refusal and now - self.last_refusal[2] < 1.0:
-            why += f"; {self.last_refusal[0]} is refused: {self.last_refusal[1]}"
+        recent = {source: refused for source, refused in self.refusals.items() if now - refused.at < 1.0}
+        if recent and state not in HOLDS:
+            source = max(recent, key=lambda name: recent[name].at)
+            why += f"; {source} is refused: {recent[source].why}"
         return state, why
 
     def _find_rest(self, now: float) -> tuple[State, str]:
+        if held := self.holds.strongest:
+            return held.state, held.why
         newest = max(self.mux.claims, key=lambda claim: claim.at, default=None)
         if newest is None:
-            return "idle", "nobody drives"
+            return ("link lost", f"{self._gone[0]} is gone") if self._gone else ("idle", "nobody drives")
         if self.mux.idle(newest, now):
             return "operator idle", f"no act on {newest.source} for {now - newest.acted:.1f} s"
         return "link lost", f"{newest.source} has been silent for {now - newest.at:.1f} s"
@@ -139,6 +187,9 @@ class Drive:
         if not moving:
             self.mux.release(proof.sender)
             return None
+        if self.holds:
+            return Refusal.AT_REST
+        self._gone = None
         claim = Claim(source, proof.sender, command, proof.acted, now, proof.seq)
         return None if self.mux.offer(claim) else Refusal.HELD
 

@@ -33,8 +33,9 @@ class Refusal(StrEnum):
     REPLAYED = "it repeats an older command"
     STALE = "it is too old, or its sender no longer hears the robot"
     OPERATOR_IDLE = "its operator has not acted for too long"
-    NOT_FROM_NEUTRAL = "it was moving before the robot started or the link came back; let go first"
+    NOT_FROM_NEUTRAL = "it was moving before the robot started or the link came back; let go first, or pause"
     HELD = "another sender drives this source"
+    AT_REST = "the robot is kept at rest; let go, and begin anew when it is free"
     NO_SUCH_CHANNEL = "this vehicle has no steering and throttle; send a twist"
 
 
@@ -60,6 +61,10 @@ class Gate:
         """Forget every sender; what began before now is over."""
         self.epoch, self._floor = epoch, now
         self._senders.clear()
+
+    def begin_after(self, now: float) -> None:
+        """Count only claims that leave neutral later than now."""
+        self._floor = max(self._floor, now)
 
     def judge(self, proof: Proof | None, moving: bool, now: float) -> Refusal | None:
         """Return why a command is refused, or None when it counts."""

@@ -52,18 +52,19 @@ class TwistLimiter:
             self.follow(None)
             return None
         speed, turn = self._scale(wanted.linear.x, wanted.angular.z, max_speed or self._speed)
-        step = self._steer if self._steers else self._rotate
-        self._last = step(speed, turn, dt)
+        if self._steers:
+            self._last = self._steer(speed, curvature.of(wanted.linear.x, wanted.angular.z), dt)
+        else:
+            self._last = self._rotate(speed, turn, dt)
         return Twist.planar(*self._last)
 
     def _scale(self, speed: float, turn: float, max_speed: float) -> tuple[float, float]:
         excess = max(1.0, abs(speed) / min(max_speed, self._speed))
-        if speed or not self._steers:
+        if curvature.rolls(speed) or not self._steers:
             excess = max(excess, abs(turn) / self._turn)
         return speed / excess, turn / excess
 
-    def _steer(self, speed: float, turn: float, dt: float) -> tuple[float, float]:
-        bend = curvature.of(speed, turn)
+    def _steer(self, speed: float, bend: float, dt: float) -> tuple[float, float]:
         speed = _approach(self._last[0], speed, self._limits.acceleration * dt)
         return speed, curvature.turn(speed, bend)
 

@@ -43,7 +43,7 @@ class Ackermann(Struct, frozen=True, tag_field="kind", tag="ackermann", forbid_u
         """Return the twist that a throttle and a steering make."""
         speed = wheels["throttle"] * self.max_speed
         bend = tan(wheels["steering"] * self.max_steering_angle) / self.wheelbase
-        return Twist.planar(speed, speed * bend)
+        return Twist.planar(speed, curvature.turn(speed, bend))
 
 
 class Differential(Struct, frozen=True, tag_field="kind", tag="differential", forbid_unknown_fields=True):

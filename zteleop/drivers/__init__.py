@@ -7,6 +7,7 @@ from typing import Any, Protocol
 import msgspec
 
 from zteleop.drivers import registers
+from zteleop.drivers.output_enable import OutputEnable, open_output_enable
 from zteleop.errors import ConfigError
 
 
@@ -18,6 +19,12 @@ class PulseDriver(Protocol):
 
     tick_us: float
     """Length of one of the 4096 counts of a period, from the real prescale."""
+
+    arming: float
+    """s that the ESC must see neutral before the first command."""
+
+    def shared(self) -> list[int]:
+        """Return the descriptors that a process must inherit to keep other drivers off as well."""
 
     def start(self, neutral_us: Mapping[int, float]) -> None:
         """Bring the chip up with these channels at neutral, and read them back."""
@@ -68,3 +75,13 @@ def tick_us(name: str, settings: Mapping[str, object]) -> float:
     """Return the length of a count, in microseconds, that a driver with these settings will have."""
     checked = settings_of(name, settings)
     return registers.tick_us(registers.prescale(checked.frequency_hz, checked.osc_hz), checked.osc_hz)
+
+
+def output_enable(name: str, settings: Mapping[str, object] | msgspec.Struct) -> OutputEnable | None:
+    """Open the pin that lets a driver's pulses out, disabled at first; None where none is configured.
+
+    Raises ConfigError for an unknown name or setting, DeviceError when the pin is missing or taken.
+    """
+    checked = settings_of(name, settings)
+    line = getattr(checked, "oe_line", None)
+    return None if line is None else open_output_enable(checked.oe_chip, line)

@@ -1,4 +1,4 @@
-"""The PCA9685 as its bus sees it, on 256 bytes of memory that change once a transaction.
+"""The PCA9685 as its bus sees it, on the first 256 bytes of memory, which change once a transaction.
 
 Data sheet rev. 4, section 7.3; what a servo sees of it is `registers.read_pulse_us`.
 """
@@ -43,11 +43,11 @@ class Chip:
 
     def power_up(self) -> None:
         """Forget everything, as when the supply dips."""
-        self.memory[:] = POWER_UP
+        self.memory[:SIZE] = POWER_UP
 
     def read(self, register: int, length: int) -> bytes:
         """Return `length` bytes from `register` on; ALL_LED_* hold nothing and read 0."""
-        image = bytes(self.memory)
+        image = self.memory[:SIZE]
         return bytes(image[place] for place in _places(image, register, length))
 
     def write(self, blocks: Iterable[Block]) -> None:
@@ -55,7 +55,7 @@ class Chip:
 
         Raises OSError(EREMOTEIO) at a reserved register, after latching what came before it.
         """
-        image = bytearray(self.memory)
+        image = bytearray(self.memory[:SIZE])
         try:
             for register, data in blocks:
                 for value, place in zip(data, _places(image, register, len(data)), strict=True):
@@ -65,10 +65,9 @@ class Chip:
 
     def _latch(self, image: bytearray) -> None:
         """Show a transaction in one piece of memory, so that a reader does not see half of it."""
-        before = self.memory[:]
-        changed = [place for place in range(SIZE) if before[place] != image[place]]
+        changed = int.from_bytes(self.memory[:SIZE], "little") ^ int.from_bytes(image, "little")
         if changed:
-            first, end = changed[0], changed[-1] + 1
+            first, end = (changed & -changed).bit_length() - 1 >> 3, changed.bit_length() + 7 >> 3
             self.memory[first:end] = bytes(image[first:end])
 
 

@@ -107,10 +107,13 @@ def failure(error: OSError, name: str, address: int | None = None, found: str = 
     return DeviceError(sentences.get(error.errno or 0, otherwise))
 
 
-def answering(i2c: I2C) -> str:
+def answering(i2c: I2C, wanted: int) -> str:
     """Say which addresses answer where a PCA9685 may live, 0x40..0x7f."""
-    found = [f"0x{address:02x}" for address in range(0x40, 0x80) if _answers(i2c, address)]
-    return f"found {', '.join(found)}" if found else "nor at any other; check power and wiring"
+    found = [address for address in range(0x40, 0x80) if _answers(i2c, address)]
+    if wanted in found:
+        return "it did when asked again: check for a loose wire"
+    there = ", ".join(f"0x{address:02x}" for address in found)
+    return f"found {there}" if there else "nor at any other; check power and wiring"
 
 
 def _answers(i2c: I2C, address: int) -> bool:

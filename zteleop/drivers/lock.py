@@ -22,6 +22,10 @@ class Lock:
         os.ftruncate(self._file, 0)
         os.pwrite(self._file, f"{os.getpid()}\n".encode(), 0)
 
+    def fileno(self) -> int | None:
+        """Return the descriptor: the lock holds for as long as any process has it open."""
+        return self._file
+
     def release(self) -> None:
         """Let others drive; the file stays, because removing it would let two lock two files of one name."""
         if self._file is not None:

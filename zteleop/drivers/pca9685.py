@@ -8,13 +8,12 @@ from msgspec import Meta, Struct
 
 from zteleop.drivers.i2c import I2C, Block, open_i2c
 from zteleop.drivers.lock import Lock, machine_folder
-from zteleop.drivers.port import Port
+from zteleop.drivers.port import SMBUS_BLOCK, Port
 from zteleop.drivers.registers import (
     ALL_LED_OFF_H,
     AUTO_INCREMENT,
     CHANNELS,
     FULL_OFF,
-    LED0_ON_L,
     MODE1,
     MODE2,
     OSCILLATOR_HZ,
@@ -23,6 +22,7 @@ from zteleop.drivers.registers import (
     SLEEP,
     TICKS,
     led_blocks,
+    led_runs,
     prescale,
     read_duty_ticks,
     read_pulse_us,
@@ -43,6 +43,12 @@ class Pca9685Settings(Struct, frozen=True, forbid_unknown_fields=True):
     frequency_hz: Annotated[float, Meta(ge=24, le=1526)] = 60.0
     osc_hz: Annotated[float, Meta(ge=20e6, le=30e6)] = OSCILLATOR_HZ
     """25e6 x measured / computed frequency; boards differ by some 10 %."""
+    arming: Annotated[float, Meta(ge=0, le=10)] = 2.0
+    """s at neutral before the first command; most ESCs learn neutral in them."""
+    oe_chip: str = "/dev/gpiochip0"
+    """The GPIO chip whose line holds the OE pin."""
+    oe_line: Annotated[int, Meta(ge=0)] | None = None
+    """BCM number of the line on the OE pin; None where the pin is not wired."""
 
     def __post_init__(self) -> None:
         prescale(self.frequency_hz, self.osc_hz)
@@ -60,7 +66,7 @@ class Pca9685:
         self._port, self._osc_hz, self._sleep = Port(i2c, settings.address), settings.osc_hz, sleep
         self._lock: Lock | None = None
         self._prescale = prescale(settings.frequency_hz, settings.osc_hz)
-        self.tick_us = tick_us(self._prescale, settings.osc_hz)
+        self.tick_us, self.arming = tick_us(self._prescale, settings.osc_hz), settings.arming
         self._modes = {MODE1: AUTO_INCREMENT, MODE2: OUTDRV, PRE_SCALE: self._prescale}
 
     def claim(self, path: str) -> None:
@@ -73,6 +79,11 @@ class Pca9685:
         except BaseException:
             self.close()
             raise
+
+    def shared(self) -> list[int]:
+        """Return the descriptors that a process must inherit to keep other drivers off as well."""
+        file = self._lock.fileno() if self._lock else None
+        return [] if file is None else [file]
 
     def start(self, neutral_us: Mapping[int, float]) -> None:
         """Bring the chip up with these channels at neutral, and read everything back.
@@ -100,8 +111,10 @@ class Pca9685:
         with self._port.in_words():
             for register in (MODE1, PRE_SCALE):
                 image[register] = self._port.get(register)
-            for first in (LED0_ON_L + 4 * channel for channel in channels):
-                image[first : first + 4] = self._port.get_block(first, 4)
+            # without auto-increment a block would be one register again and again
+            longest = SMBUS_BLOCK if image[MODE1] & AUTO_INCREMENT else 1
+            for register, length in led_runs(channels, longest):
+                image[register : register + length] = self._port.get_block(register, length)
         return {channel: read_pulse_us(image, channel, self._osc_hz) for channel in channels}
 
     def check(self) -> None:

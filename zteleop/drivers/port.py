@@ -27,7 +27,7 @@ class Port:
         except DeviceError:
             raise
         except OSError as error:
-            found = answering(self._i2c) if search and error.errno in NOBODY else ""
+            found = answering(self._i2c, self._address) if search and error.errno in NOBODY else ""
             raise failure(error, self._i2c.name, self._address, found) from error
 
     def get(self, register: int) -> int:

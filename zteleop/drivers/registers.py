@@ -1,6 +1,6 @@
 """The PCA9685's registers by the data sheet's names (rev. 4, section 7.3), and pulses to bytes and back."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from zteleop.errors import ConfigError
 
@@ -46,6 +46,15 @@ def led_blocks(duty_ticks: Mapping[int, int]) -> list[tuple[int, bytes]]:
             register, data = blocks[-1][0], blocks.pop()[1] + data
         blocks.append((register, data))
     return blocks
+
+
+def led_runs(channels: Iterable[int], longest: int) -> list[tuple[int, int]]:
+    """Return (first register, how many) for each run of adjacent channels, in parts of at most `longest`."""
+    return [
+        (first + offset, min(longest, len(data) - offset))
+        for first, data in led_blocks(dict.fromkeys(channels, 0))
+        for offset in range(0, len(data), longest)
+    ]
 
 
 def read_duty_ticks(registers: Sequence[int], channel: int) -> int | None:

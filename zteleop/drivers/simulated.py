@@ -1,21 +1,23 @@
 """A PCA9685 in a memory-mapped file, under the real driver: byte n of the file is register n.
 
 Like the chip it outlives its drivers, keeps the last pulse of a killed one, and can be watched from outside.
+`faults.Faults` lets its bus fail.
 """
 
-import fcntl
 import os
+import time
 from collections.abc import Sequence
 from mmap import ACCESS_READ, ACCESS_WRITE, mmap
 from typing import Annotated, Self
 
 from msgspec import Meta, Struct
 
-from zteleop.drivers.chip import POWER_UP, SIZE, Chip
+from zteleop.drivers.chip import SIZE, Chip
+from zteleop.drivers.chip_file import FAULTS, map_file
+from zteleop.drivers.faults import Fault, cut, take
 from zteleop.drivers.i2c import EREMOTEIO, Block
 from zteleop.drivers.pca9685 import Pca9685, Pca9685Settings
 from zteleop.drivers.registers import OSCILLATOR_HZ, prescale
-from zteleop.errors import DeviceError
 
 LOOKS = 8
 
@@ -25,6 +27,8 @@ class SimulatedSettings(Struct, frozen=True, forbid_unknown_fields=True):
     """The file of registers; empty is `default_path()`."""
     frequency_hz: Annotated[float, Meta(ge=24, le=1526)] = 60.0
     osc_hz: Annotated[float, Meta(ge=20e6, le=30e6)] = OSCILLATOR_HZ
+    arming: Annotated[float, Meta(ge=0, le=10)] = 0.0
+    """s at neutral before the first command; a simulated ESC needs none."""
 
     def __post_init__(self) -> None:
         prescale(self.frequency_hz, self.osc_hz)
@@ -44,10 +48,15 @@ class SimulatedI2C:
     def transfer(self, address: int, blocks: Sequence[Block]) -> None:
         """Write all blocks in one transaction, or raise OSError with the kernel's errno."""
         self._select(address)
+        if self._troubled() and (fault := take(self.name, sum(len(data) for _, data in blocks))):
+            self.chip.write(cut(blocks, fault.after_bytes))
+            _fail(fault)
         self.chip.write(blocks)
 
     def read_i2c_block_data(self, address: int, register: int, length: int) -> list[int]:
         self._select(address)
+        if self._troubled() and (fault := take(self.name)):
+            _fail(fault)
         return list(self.chip.read(register, length))
 
     def read_byte_data(self, address: int, register: int) -> int:
@@ -70,6 +79,9 @@ class SimulatedI2C:
         if address != self.address:
             raise OSError(EREMOTEIO, "nobody answers")
 
+    def _troubled(self) -> bytes | bytearray:
+        return self.chip.memory[FAULTS].strip(b"\0")
+
 
 class Registers:
     """A chip's registers seen from outside: whoever holds this cannot write them."""
@@ -79,9 +91,9 @@ class Registers:
 
     def snapshot(self) -> bytes:
         """Return all 256 registers between two transactions."""
-        seen = self._memory[:]
+        seen = self._memory[:SIZE]
         for _ in range(LOOKS):  # the writer's copy takes nanoseconds: two equal looks are past it
-            again = self._memory[:]
+            again = self._memory[:SIZE]
             if again == seen:
                 break
             seen = again
@@ -103,7 +115,9 @@ def open_driver(settings: SimulatedSettings, *, exclusive: bool = True) -> Pca96
     Raises DeviceError when the file cannot be opened or another process drives the chip.
     """
     path = settings.path or default_path()
-    board = Pca9685Settings(frequency_hz=settings.frequency_hz, osc_hz=settings.osc_hz)
+    board = Pca9685Settings(
+        frequency_hz=settings.frequency_hz, osc_hz=settings.osc_hz, arming=settings.arming
+    )
     driver = Pca9685(SimulatedI2C(open_chip(path), path, board.address), board)
     if exclusive:
         driver.claim(f"{path}.lock")
@@ -115,7 +129,7 @@ def open_chip(path: str) -> Chip:
 
     Raises DeviceError when the file cannot be opened.
     """
-    return Chip(_map(path, ACCESS_WRITE))
+    return Chip(map_file(path, ACCESS_WRITE))
 
 
 def open_registers(path: str = "") -> Registers:
@@ -123,7 +137,7 @@ def open_registers(path: str = "") -> Registers:
 
     Raises DeviceError when the file cannot be opened.
     """
-    return Registers(_map(path or default_path(), ACCESS_READ))
+    return Registers(map_file(path or default_path(), ACCESS_READ))
 
 
 def default_path(robot: str = "robot") -> str:
@@ -132,25 +146,6 @@ def default_path(robot: str = "robot") -> str:
     return f"{folder}/zteleop/{robot}.pca9685"
 
 
-def _map(path: str, access: int) -> mmap:
-    try:
-        os.makedirs(os.path.dirname(path) or ".", mode=0o700, exist_ok=True)
-        file = os.open(path, os.O_RDWR | os.O_CREAT, 0o600)
-        try:
-            _switch_on(file)
-            return mmap(file, SIZE, access=access)
-        finally:
-            os.close(file)
-    except OSError as error:
-        raise DeviceError(
-            f"cannot open the simulated chip {path}: {error.strerror}; set path under [drivers.simulated]"
-        ) from error
-
-
-def _switch_on(file: int) -> None:
-    """Give a file that is not a chip the registers of one that has just got power."""
-    fcntl.flock(file, fcntl.LOCK_EX)  # two processes may start at once
-    if os.fstat(file).st_size != SIZE:
-        os.ftruncate(file, SIZE)
-        os.pwrite(file, POWER_UP, 0)
-    fcntl.flock(file, fcntl.LOCK_UN)  # the mapping keeps a copy of the file open, and with it the lock
+def _fail(fault: Fault) -> None:
+    time.sleep(fault.ms / 1000)
+    raise OSError(fault.number, "a fault that was put in")

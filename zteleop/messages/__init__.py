@@ -15,6 +15,7 @@ from zteleop.messages.geometry import (
 from zteleop.messages.log import Log
 from zteleop.messages.message import Message
 from zteleop.messages.nav import Odometry
+from zteleop.messages.safety import Layer, Stop, WatchdogStatus, Why
 from zteleop.messages.std import (
     Bool,
     Header,
@@ -34,6 +35,7 @@ MESSAGES: dict[str, type[Message]] = {
         DriveStatus,
         Header,
         Int16MultiArray,
+        Layer,
         Log,
         MultiArrayDimension,
         MultiArrayLayout,
@@ -44,6 +46,7 @@ MESSAGES: dict[str, type[Message]] = {
         Pulse,
         Pwm,
         Quaternion,
+        Stop,
         String,
         Time,
         Twist,
@@ -51,6 +54,8 @@ MESSAGES: dict[str, type[Message]] = {
         TwistWithCovariance,
         Vector3,
         Vehicle,
+        WatchdogStatus,
+        Why,
     )
 }
 
@@ -80,6 +85,7 @@ __all__ = [
     "DriveStatus",
     "Header",
     "Int16MultiArray",
+    "Layer",
     "Log",
     "Message",
     "MultiArrayDimension",
@@ -92,6 +98,7 @@ __all__ = [
     "Pwm",
     "Quaternion",
     "State",
+    "Stop",
     "String",
     "Time",
     "Twist",
@@ -99,5 +106,7 @@ __all__ = [
     "TwistWithCovariance",
     "Vector3",
     "Vehicle",
+    "WatchdogStatus",
+    "Why",
     "message_type",
 ]

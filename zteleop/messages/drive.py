@@ -60,6 +60,10 @@ class Vehicle(Message):
     """rad; 0 where nothing steers."""
     operator_silence: float
     """s without an act until neutral."""
+    tick_us: float
+    """us of one count of the chip."""
+    ready: bool
+    """Its start is over: whoever begins now may drive it, unless it is stopped."""
 
 
 class Pulse(Message):
@@ -92,5 +96,7 @@ class DriveStatus(Message):
     """Of the last command accepted."""
     written: float
     """When its pulses were on the chip, by the robot's clock."""
+    stop: Annotated[int, Meta(ge=0, lt=2**53)]
+    """The id of the stop in force, which a release must name; 0 when there is none."""
     refused: int
     clamped: int

@@ -1,4 +1,4 @@
-"""Commands in, pulses out: the only process that moves the robot."""
+"""Commands in, pulses out: the only process that moves the robot, under a watchdog that may end it."""
 
 import secrets
 
@@ -6,32 +6,63 @@ from zteleop.bus import clock
 from zteleop.bus.node import Node
 from zteleop.bus.subscription import Received
 from zteleop.bus.topics import TOPICS
+from zteleop.control.command import to_command
 from zteleop.control.drive import Drive, DriveSettings
+from zteleop.control.explain import layers
 from zteleop.control.report import describe, status
 from zteleop.drivers import PulseDriver
-from zteleop.errors import MessageError
-from zteleop.messages import Beat, DriveStatus, Int16MultiArray, Message, Pwm, Twist, TwistStamped, Vehicle
+from zteleop.errors import DeviceError, MessageError
+from zteleop.messages import (
+    Beat,
+    DriveStatus,
+    Message,
+    Stop,
+    Vehicle,
+    Why,
+)
+from zteleop.nodes.journal import Journal
+from zteleop.nodes.link import HEARS, STOP, ActuatorEnd, Report
+from zteleop.nodes.output import Output
+from zteleop.nodes.stop_file import StopFile
 
 PERIOD = 0.02
 AT_MOST_EVERY = 0.005
 IN_A_ROW = 4
 TELL_EVERY = 0.05
-DESCRIBE_EVERY = 0.2
+DESCRIBE_EVERY = CHECK_EVERY = 0.2
+WATCHDOG_SILENCE = 0.45
+"""s without a word of the watchdog until neutral and exit: 0.5 s since it froze at the latest."""
+DEAF = "deaf"
 
 
 class Actuator:
     """Steps the drive on arrival, for latency, and on a clock, because only a clock hears silence."""
 
-    def __init__(self, node: Node, settings: DriveSettings, driver: PulseDriver) -> None:
+    def __init__(
+        self,
+        node: Node,
+        settings: DriveSettings,
+        driver: PulseDriver,
+        link: ActuatorEnd,
+        stop_file: StopFile,
+        journal: Journal,
+    ) -> None:
         self._node, self._settings, self._driver = node, settings, driver
-        self._neutral_us = {servo.channel: servo.neutral_us for servo in settings.servos.values()}
-        driver.start(self._neutral_us)
-        self._drive = Drive(settings, driver.tick_us, _epoch(), clock.now())
-        self._step = self._drive.step(clock.now())
-        self._written = clock.now()
+        self._link, self._stop_file, self._journal = link, stop_file, journal
+        self._since = clock.now()
+        self._drive = Drive(settings, driver.tick_us, _epoch(), self._since)
+        self._output = Output(driver, self._drive, node.log.info)
+        self._output.start(self._since)
+        self._drive.hold(DEAF, "starting", "the watchdog does not hear this robot on the bus", self._since)
+        if stop := stop_file.load():
+            self._drive.stop(stop, self._since)
+        self._watched = clock.now()
+        self._step = self._drive.step(self._watched)
+        self._written = self._watched
         self._beats = node.publisher("beat", Beat)
         self._statuses = node.publisher("drive_status", DriveStatus)
         self._vehicles = node.publisher("vehicle", Vehicle)
+        self._whys = node.publisher("why", Why)
         self._answered = float("-inf")
         self._soon = node.alarm(self._answer)
 
@@ -41,25 +72,33 @@ class Actuator:
             for source in self._settings.known_sources:
                 for topic in ("cmd_vel", "pwm"):
                     self._node.subscription(f"{topic}/{source}", TOPICS[topic].types, self._receive)
-            self._node.every(PERIOD)(self._advance)
+            self._node.subscription("stop", Stop, lambda received: self._obey(received.message))
+            self._node.departures(self._withdraw)
+            self._node.watch(self._link.fileno(), self._hear_watchdog)
+            self._node.every(PERIOD)(self._tick)
             self._node.every(TELL_EVERY)(self._tell)
             self._node.every(DESCRIBE_EVERY)(self._describe)
+            self._node.every(CHECK_EVERY)(lambda: self._output.check(clock.now()))
             self._node.log.info(f"obeys {self._node.robot}")
+            self._journal.event("start", robot=self._node.robot, epoch=self._drive.gate.epoch)
             self._node.spin()
         finally:
-            self._driver.write(self._neutral_us)
-            self._driver.close()
+            self._output.rest()
+            self._output.close()
+            self._journal.close()
 
     def _receive(self, received: Received[Message]) -> None:
         """Judge a command; when it counts, step at once, or as soon as the last answer is old enough."""
-        now, source = received.at, received.source
+        now, source, proof = received.at, received.source, received.proof
         self._notice_pause(now)
         try:
             command = to_command(received.message)
         except MessageError as error:
             self._node.log.warn(f"{received.key}: dropped: {error}", received.key)
             return
-        refusal = self._drive.receive(source, command, received.proof, now)
+        refusal = self._drive.receive(source, command, proof, now)
+        sender, acted = (proof.sender, proof.acted) if proof else (None, now)
+        self._journal.command(source, sender, command, acted, refusal, now)
         if refusal:
             self._node.log.warn(f"{received.key} is refused: {refusal}", f"{source} {refusal}")
         else:
@@ -70,22 +109,65 @@ class Actuator:
         self._answered = max(self._answered + AT_MOST_EVERY, clock.now() - (IN_A_ROW - 1) * AT_MOST_EVERY)
         self._advance()
 
+    def _tick(self) -> None:
+        """Step by the clock, which alone hears silence: of commands, and of the watchdog."""
+        now = clock.now()
+        self._notice_pause(now)
+        if now - self._watched > WATCHDOG_SILENCE:
+            raise DeviceError(
+                f"the watchdog has been silent for {now - self._watched:.1f} s; the robot is at rest"
+            )
+        self._output.tend(now)
+        self._advance()
+
     def _advance(self) -> None:
-        """Decide the pulses of now and write them."""
+        """Decide the pulses of now, write them, and report the step."""
         now = clock.now()
         self._notice_pause(now)
         before, self._step = self._step, self._drive.step(now)
-        self._driver.write(self._step.pulse_us)
+        self._output.write(self._step.pulse_us, now)
         self._written = clock.now()
+        self._link.report(Report(now, self._drive.gate.epoch, self._since))
         if self._step.state != before.state:
             self._node.log.info(f"{self._step.state}: {self._step.why}")
-            self._tell_status()
+            self._journal.event("state", state=self._step.state, why=self._step.why)
+            self._tell()  # a beat as well: whoever begins now must prove that it was after this
+            self._describe()
 
     def _notice_pause(self, now: float) -> None:
         """Begin a new epoch when this process itself was stopped: what it knows is from before."""
         if self._drive.late(now):
             self._node.log.warn("this process was stopped for a while; whoever drove must let go first")
             self._drive.restart(_epoch(), now)
+            self._since = self._watched = now
+
+    def _hear_watchdog(self) -> None:
+        words = self._link.read()
+        now = self._watched = clock.now()
+        if STOP in words and (stop := self._stop_file.load()):
+            self._obey(stop)
+        if words.endswith(HEARS):
+            self._drive.free(DEAF, now)
+        elif words:
+            self._drive.hold(DEAF, "starting", "the watchdog does not hear this robot on the bus", now)
+
+    def _obey(self, said: Stop) -> None:
+        """Obey a stop or a release; the pulses first, the file and the words afterwards."""
+        stop = self._drive.latch.stop
+        releases = not said.engaged and stop is not None and said.id == stop.id
+        if releases and not self._stop_file.remove():
+            return
+        if not self._drive.stop(said, clock.now()):
+            return
+        self._advance()
+        if said.engaged:
+            self._stop_file.keep(said)
+        self._journal.event("stop" if said.engaged else "release", by=said.by, why=said.why, id=said.id)
+
+    def _withdraw(self, sender: int) -> None:
+        """Let go at once for a sender whose process is gone; its deadline would come later."""
+        self._drive.withdraw(sender, clock.now())
+        self._advance()
 
     def _tell(self) -> None:
         self._beats.publish(Beat(self._drive.gate.epoch, clock.now()))
@@ -95,20 +177,8 @@ class Actuator:
         self._statuses.publish(status(self._drive, self._step, self._written))
 
     def _describe(self) -> None:
-        self._vehicles.publish(describe(self._settings, self._driver.tick_us))
-
-
-def to_command(message: Message) -> Twist | Pwm:
-    """Return what a message commands; raises MessageError when it commands nothing."""
-    if isinstance(message, TwistStamped):
-        return message.twist
-    if isinstance(message, Int16MultiArray):
-        if len(message.data) < 2:
-            raise MessageError(f"expected [steering, throttle], found {message.data}")
-        return Pwm(message.data[0], message.data[1])
-    if isinstance(message, Twist | Pwm):
-        return message
-    raise MessageError(f"a {type(message).__name__} commands nothing")
+        self._vehicles.publish(describe(self._settings, self._driver.tick_us, self._step.state != "starting"))
+        self._whys.publish(Why(layers(self._drive, self._step, clock.now())))
 
 
 def _epoch() -> int:

@@ -40,6 +40,8 @@ def values_of(annotation: Any) -> st.SearchStrategy[Any]:
         return st.lists(values_of(item), min_size=meta.min_length, max_size=meta.min_length)
     if origin is Annotated:
         metas = [meta for meta in arguments[1:] if isinstance(meta, Meta)]
+        if arguments[0] is str:
+            return st.text(max_size=min(meta.max_length for meta in metas))
         return st.integers(metas[0].ge, metas[0].lt - 1)
     if origin is list:
         return st.lists(values_of(arguments[0]), max_size=3)

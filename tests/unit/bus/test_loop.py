@@ -215,9 +215,22 @@ def test_it_never_waits_beyond_the_time_given(loop: Loop, clock: Clock, waits: l
     assert max(waits) == pytest.approx(2.5)
 
 
-def test_a_time_that_has_passed_runs_nothing(loop: Loop, clock: Clock) -> None:
-    loop.every(0.1, pytest.fail)
+def test_a_time_that_has_passed_still_does_what_is_ready(loop: Loop, clock: Clock) -> None:
+    done: list[str] = []
+    loop.call_soon(lambda: done.append("ready"))
     loop.run(until=clock.time)
+    assert done == ["ready"]
+
+
+def test_a_stop_ends_one_run_and_leaves_the_rest_to_the_next(loop: Loop) -> None:
+    done: list[str] = []
+    loop.call_soon(loop.stop)
+    loop.call_soon(lambda: done.append("next"))
+    loop.run()
+    assert done == []
+    loop.call_soon(loop.stop)
+    loop.run()
+    assert done == ["next"]
 
 
 def test_an_error_ends_the_run_and_the_rest_waits_for_the_next(loop: Loop) -> None:

@@ -41,10 +41,22 @@ def test_a_topic_without_a_robot_asks_for_one(text: str) -> None:
         resolve(text, None)
 
 
-@pytest.mark.parametrize("text", ["/odom", "/", "//", "robot/", "robot/archangel", "/archangel/"])
+@pytest.mark.parametrize("text", ["/", "//", "robot/", "robot/archangel", "/archangel/"])
 def test_a_robot_without_a_topic_is_no_topic(text: str) -> None:
     with pytest.raises(ConfigError, match="a topic is ROBOT/TOPIC, such as"):
         resolve(text, "archangel")
+
+
+def test_a_topic_as_ros_says_it_is_told_how_it_is_said_here() -> None:
+    with pytest.raises(ConfigError, match="found '/odom'; say odom, or /ROBOT/odom"):
+        resolve("/odom", "archangel")
+
+
+def test_a_name_that_could_be_two_robots_is_not_guessed() -> None:
+    with pytest.raises(ConfigError, match="say /camera/image or /archangel/camera/image"):
+        resolve("camera/image", "archangel")
+    assert resolve("camera/image", None).robot == "camera"
+    assert resolve("camera/odom", "archangel").robot == "camera"
 
 
 @pytest.mark.parametrize(

@@ -155,7 +155,7 @@ def test_the_sender_is_called_as_the_robot_calls_it(operator: Operator) -> None:
 @pytest.mark.parametrize("matching", [True, False])
 def test_somebody_hears_when_somebody_subscribes(operator: Operator, matching: bool) -> None:
     operator.zenoh.matching_status.matching = matching
-    assert operator.publisher.heard is matching
+    assert operator.publisher.matched is matching
 
 
 @pytest.mark.parametrize(

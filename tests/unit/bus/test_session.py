@@ -1,6 +1,8 @@
 import json
 import re
+import socket
 from collections.abc import Callable
+from contextlib import closing
 from types import SimpleNamespace
 from typing import Any
 
@@ -10,7 +12,7 @@ import zenoh
 from unit.bus.fakes import Clock
 
 from zteleop.bus import session
-from zteleop.bus.session import ROBOT_ENDPOINT, SAME_MACHINE, BusSettings, open_session
+from zteleop.bus.session import IF_FREE, ROBOT_ENDPOINT, SAME_MACHINE, BusSettings, open_session
 from zteleop.errors import BusError, ConfigError
 
 
@@ -78,8 +80,14 @@ def test_a_client_fails_at_once_so_that_our_own_loop_retries() -> None:
 
 
 def test_a_robot_starts_even_when_its_usual_port_is_taken() -> None:
-    assert configure(listen=[ROBOT_ENDPOINT, "tcp/[::]:0"])("listen/exit_on_failure") is False
-    assert configure(listen=["tcp/127.0.0.1:7448"])("listen/exit_on_failure") is True
+    with closing(socket.socket(socket.AF_INET6)) as taken:
+        taken.bind(("::", 0))
+        taken.listen()
+        endpoint = f"tcp/[::]:{taken.getsockname()[1]}"
+        with pytest.raises(BusError, match="already in use"):
+            open_session(BusSettings(listen=[endpoint], multicast=False))
+        open_session(BusSettings(listen=[f"{endpoint}{IF_FREE}", "tcp/[::]:0"], multicast=False)).close()
+    assert ROBOT_ENDPOINT.endswith(IF_FREE)
 
 
 def test_only_who_settles_waits_for_others(opened: Callable[..., list[zenoh.Config]]) -> None:

@@ -19,6 +19,7 @@ class Table(dict):
 @pytest.fixture
 def handlers(monkeypatch: pytest.MonkeyPatch) -> Table:
     table = Table()
+    monkeypatch.setattr(signals, "_raised", float("-inf"))
     monkeypatch.setattr(signal, "getsignal", table.__getitem__)
     monkeypatch.setattr(signal, "signal", table.__setitem__)
     return table
@@ -41,14 +42,18 @@ def test_every_ending_signal_unwinds_and_is_given_back(handlers: Table) -> None:
         (signal.SIGHUP, SystemExit(129)),
     ],
 )
-def test_a_signal_raises_once_and_a_second_is_ignored(
-    handlers: Table, number: int, ending: BaseException
+def test_a_signal_raises_and_a_second_one_does_not_disturb_for_a_while(
+    handlers: Table, number: int, ending: BaseException, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     signals.unwind()
     with pytest.raises(type(ending)) as error:
         handlers[number](number, None)
     assert error.value.args == ending.args
-    assert set(handlers.values()) == {signal.SIG_IGN}
+    for again in signals.ENDING:
+        handlers[again](again, None)
+    monkeypatch.setattr(signals, "UNDISTURBED", 0.0)
+    with pytest.raises(type(ending)):
+        handlers[number](number, None)
 
 
 @pytest.mark.parametrize("theirs", [signal.SIG_IGN, lambda number, frame: None])

@@ -103,13 +103,13 @@ def test_what_is_no_yaml_is_refused_with_an_example(text: str) -> None:
 
 @pytest.mark.parametrize(("text", "rate"), [("20", 20.0), ("0.5", 0.5), ("1000", 1000.0)])
 def test_a_rate_is_a_number(text: str, rate: float) -> None:
-    assert pub._positive(text) == rate
+    assert pub._rate_hz(text) == rate
 
 
 @pytest.mark.parametrize("text", ["0", "-1", "nan", "inf", "1001"])
 def test_a_rate_out_of_range_is_refused(text: str) -> None:
     with pytest.raises(argparse.ArgumentTypeError, match="a rate is more than 0 and at most 1000 Hz"):
-        pub._positive(text)
+        pub._rate_hz(text)
 
 
 @pytest.mark.parametrize("times", ["0", "-3"])

@@ -115,9 +115,10 @@ def test_a_failed_transfer_says_where_what_and_what_to_do(error: int, words: str
 
 def test_answering_names_the_addresses_that_do(wire: Wire) -> None:
     wire.address = 0x70
-    assert answering(wire) == "found 0x70"
+    assert answering(wire, 0x40) == "found 0x70"
+    assert answering(wire, 0x70) == "it did when asked again: check for a loose wire"
     wire.address = 0x20
-    assert answering(wire) == "nor at any other; check power and wiring"
+    assert answering(wire, 0x40) == "nor at any other; check power and wiring"
 
 
 def test_the_real_smbus2_speaks_to_the_chip(wire: Wire, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -49,6 +49,13 @@ def test_every_driver_of_the_table_says_what_settings_it_obeys() -> None:
 
 
 @pytest.mark.parametrize("name", DRIVERS)
+@pytest.mark.parametrize("seconds", [-0.1, 10.1, float("nan"), "long"])
+def test_arming_for_no_time_there_is_is_refused(name: str, seconds: object) -> None:
+    with pytest.raises(ConfigError, match=rf"drivers\.{name}\.arming: Expected `float`"):
+        open_driver(name, {"arming": seconds})
+
+
+@pytest.mark.parametrize("name", DRIVERS)
 def test_the_tick_of_settings_is_known_before_the_chip_is_opened(name: str) -> None:
     assert tick_us(name, {"frequency_hz": 50}) == pytest.approx(4.88)
     assert tick_us(name, {"osc_hz": 26e6}) == pytest.approx(106 / 26)

@@ -33,6 +33,7 @@ def driving(wire: Wire, driver: Pca9685) -> Pca9685:
     """A driver that is started, with its start forgotten."""
     driver.start(NEUTRAL)
     wire.log.clear()
+    wire.reads.clear()
     return driver
 
 
@@ -104,6 +105,17 @@ def test_adjacent_channels_are_one_block_write(wire: Wire, driving: Pca9685) -> 
 def test_channels_apart_are_one_transaction(wire: Wire, driving: Pca9685) -> None:
     driving.write({0: 1000, 7: 2000})
     assert wire.log == [[(0x06, bytes([0, 0, 0xF5, 0])), (0x22, bytes([0, 0, 0xEA, 1]))]]
+
+
+def test_adjacent_channels_are_read_in_one_block(wire: Wire, driving: Pca9685) -> None:
+    driving.write({0: 1000, 1: 2000, 5: 1200})
+    assert driving.read([5, 1, 0]) == pytest.approx({5: 1200, 1: 2000, 0: 1000}, abs=2.04)
+    assert wire.reads == [(MODE1, 1), (PRE_SCALE, 1), (0x06, 8), (0x1A, 4)]
+
+
+def test_arming_takes_as_long_as_the_settings_say(wire: Wire, driver: Pca9685) -> None:
+    assert driver.arming == 2.0
+    assert Pca9685(wire, Pca9685Settings(arming=0.5)).arming == 0.5
 
 
 def test_writes_are_unconditional(wire: Wire, driving: Pca9685) -> None:

@@ -9,6 +9,7 @@ from zteleop.drivers.registers import (
     MODE1,
     PRE_SCALE,
     led_blocks,
+    led_runs,
     prescale,
     read_duty_ticks,
     read_pulse_us,
@@ -59,6 +60,13 @@ def test_other_channels_get_a_block_of_their_own() -> None:
         (0x16, 4),
         (0x42, 4),
     ]
+
+
+def test_adjacent_channels_are_one_run_in_parts_that_are_not_too_long() -> None:
+    assert led_runs([1, 5, 0], 32) == [(0x06, 8), (0x1A, 4)]
+    assert led_runs(range(9), 32) == [(0x06, 32), (0x26, 4)]
+    assert led_runs([2], 1) == [(0x0E, 1), (0x0F, 1), (0x10, 1), (0x11, 1)]
+    assert led_runs([], 32) == []
 
 
 def image(led: Sequence[int] = (0, 0, 0x70, 0x01), mode1: int = 0x20, pre_scale: int = 101) -> bytearray:

@@ -1,11 +1,13 @@
 import os
 import stat
+import time
 from pathlib import Path
 
 import pytest
 
 from zteleop.drivers import open_driver
 from zteleop.drivers.chip import POWER_UP
+from zteleop.drivers.faults import Faults
 from zteleop.drivers.pca9685 import Pca9685, Pca9685Settings, read_pulse_us
 from zteleop.drivers.simulated import Registers, SimulatedI2C, default_path, open_chip, open_registers
 from zteleop.errors import DeviceError
@@ -25,15 +27,8 @@ def started(path: str, neutral_us: dict[int, float]) -> Pca9685:
 def test_a_chip_that_was_not_there_has_just_got_power(path: str, tmp_path: Path) -> None:
     with open_registers(path) as registers:
         assert registers.snapshot() == POWER_UP
-    assert (tmp_path / "runtime" / "zteleop" / "car.pca9685").read_bytes() == POWER_UP
+    assert (tmp_path / "runtime" / "zteleop" / "car.pca9685").read_bytes() == POWER_UP + bytes(16)
     assert stat.S_IMODE(os.stat(os.path.dirname(path)).st_mode) == 0o700
-
-
-@pytest.mark.parametrize("content", [b"", b"not a chip", bytes(300)])
-def test_a_file_of_another_size_is_no_chip_and_gets_power(tmp_path: Path, content: bytes) -> None:
-    (tmp_path / "chip").write_bytes(content)
-    open_chip(str(tmp_path / "chip"))
-    assert (tmp_path / "chip").read_bytes() == POWER_UP
 
 
 def test_byte_n_of_the_file_is_register_n(path: str) -> None:
@@ -94,6 +89,31 @@ def test_a_second_actuator_is_refused_with_the_process_of_the_first(path: str) -
     open_driver("simulated", {"path": path}).close()
 
 
+def test_a_transfer_meets_the_fault_that_was_put_in(path: str) -> None:
+    driver = started(path, {0: 1500, 1: 1500})
+    i2c = SimulatedI2C(open_chip(path), path)
+    with Faults(path) as faults, open_registers(path) as registers:
+        faults.tear(1, after_bytes=3)
+        with pytest.raises(OSError, match="put in") as torn:
+            i2c.write_blocks(0x40, [(6, bytes([0, 0])), (10, bytes([1, 2, 3, 4]))])
+        assert torn.value.errno == 121
+        assert registers.snapshot()[6:14] == bytes([0, 0, 0x70, 1, 1, 0, 0x70, 1])
+        faults.hang(1, ms=3)
+        began = time.monotonic()
+        with pytest.raises(TimeoutError):
+            i2c.read_byte_data(0x40, 0)
+        assert time.monotonic() - began >= 0.003
+    driver.write({0: 1500, 1: 1500})
+    assert driver.read([1])[1] == pytest.approx(1500, abs=2.04)
+
+
+def test_the_simulated_esc_arms_at_once_unless_told_otherwise(path: str) -> None:
+    for settings, arming in (({}, 0.0), ({"arming": 1.5}, 1.5)):
+        driver = open_driver("simulated", {"path": path} | settings)
+        assert driver.arming == arming
+        driver.close()
+
+
 def test_nobody_answers_at_another_address(path: str) -> None:
     i2c = SimulatedI2C(open_chip(path), path, 0x41)
     with pytest.raises(OSError, match="nobody answers"):
@@ -101,14 +121,6 @@ def test_nobody_answers_at_another_address(path: str) -> None:
     with pytest.raises(OSError, match="nobody answers"):
         i2c.read_byte_data(0x40, 0)
     assert open_registers(path).snapshot() == POWER_UP
-
-
-def test_a_file_that_cannot_be_opened_names_the_setting(tmp_path: Path) -> None:
-    (tmp_path / "file").write_text("")
-    with pytest.raises(
-        DeviceError, match=r"cannot open the simulated chip .*path under \[drivers\.simulated\]"
-    ):
-        open_chip(str(tmp_path / "file" / "chip"))
 
 
 def test_the_default_is_in_the_users_runtime_folder(monkeypatch: pytest.MonkeyPatch) -> None:

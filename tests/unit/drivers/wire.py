@@ -22,6 +22,14 @@ class Wire(SimulatedI2C):
         self.block_writes = 0
         """Transfers that were SMBus block writes, which every adapter can."""
 
+        self.reads: list[tuple[int, int]] = []
+        """The first register of each read, and how many."""
+
+    def read_i2c_block_data(self, address: int, register: int, length: int) -> list[int]:
+        assert length <= 32, "the kernel takes no more in one SMBus block"
+        self.reads.append((register, length))
+        return super().read_i2c_block_data(address, register, length)
+
     def write_i2c_block_data(self, address: int, register: int, data: Sequence[int]) -> None:
         assert len(data) <= 32, "the kernel takes no more in one SMBus block"
         self.block_writes += 1

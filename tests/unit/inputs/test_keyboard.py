@@ -279,7 +279,7 @@ def test_any_keys_give_a_stick_in_range(drive, chunks, reset_at):
     channels = [
         Channel(name, i, 1.0, 2.0, 3.0, 290, 375, 460) for i, name in enumerate(("steering", "throttle"))
     ]
-    bench = Bench(drive, Vehicle("ackermann", channels, 1.0, 2.0, 0.25, 0.4, 5.0))
+    bench = Bench(drive, Vehicle("ackermann", channels, 1.0, 2.0, 0.25, 0.4, 5.0, 4.08, True))
     for index, (data, after) in enumerate(chunks):
         bench.type(data, after)
         stick = bench.stick()

@@ -1,0 +1,31 @@
+import argparse
+
+from zteleop import config
+from zteleop.cli import options
+from zteleop.control.calibration import Calibration
+from zteleop.drivers import DRIVERS, open_driver
+from zteleop.errors import DeviceError
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    options.add_config(parser)
+    parser.add_argument("--robot", metavar="NAME", help="whose simulated chip (default: this machine's own)")
+    parser.add_argument("--driver", choices=DRIVERS, help="the chip to write to (default: simulated)")
+
+
+def run(arguments: argparse.Namespace) -> None:
+    """Write neutral first and ask afterwards: it is never wrong."""
+    settings = config.load(arguments.config)
+    robot = arguments.robot or settings.robot or config.own_name()
+    name = arguments.driver or settings.driver
+    chip = settings.driver_settings(name, robot)
+    hand = open_driver(name, chip, exclusive=False)
+    calibration = Calibration(settings.drive.servos, hand.tick_us)
+    hand.start(calibration.neutral_us)
+    hand.close()
+    try:
+        open_driver(name, chip).close()
+    except DeviceError as error:
+        raise DeviceError(f"neutral was written, but {error}, for it goes on writing") from error
+    pulses = calibration.pulses(calibration.rest)
+    print("at rest: " + ", ".join(f"{p.name} {p.pulse_us:.0f} us = {p.duty_ticks} ticks" for p in pulses))

@@ -1,0 +1,46 @@
+import argparse
+
+from zteleop.bus import clock
+from zteleop.bus.escape import printable
+from zteleop.bus.subscription import Received
+from zteleop.cli import options
+from zteleop.cli.why import describe
+from zteleop.errors import BusError
+from zteleop.messages import WatchdogStatus
+
+LINE_EVERY = 1.0
+PATIENCE = 2.0
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    options.add(parser)
+    options.add_robot(parser)
+    parser.add_argument("--once", action="store_true", help="print one line and end")
+
+
+def run(arguments: argparse.Namespace) -> None:
+    """Print a line a second, and one at each change."""
+    with options.join("watch", options.load(arguments)) as node:
+        shown: tuple[object, ...] = ()
+        heard_at = shown_at = clock.now()
+
+        def show(received: Received[WatchdogStatus]) -> None:
+            nonlocal shown, shown_at, heard_at
+            dog, heard_at = received.message, received.at
+            news = (dog.state, dog.why, dog.moving, dog.allowed, dog.restarts)
+            if news != shown or heard_at - shown_at >= LINE_EVERY:
+                shown, shown_at = news, heard_at
+                print(printable(f"{node.robot}  {describe(dog)}; {dog.commands} commands heard"), flush=True)
+                if arguments.once:
+                    node.stop()
+
+        @node.every(PATIENCE / 4)
+        def notice_silence() -> None:
+            if clock.now() - heard_at > PATIENCE:
+                raise BusError(
+                    f"no watchdog of {node.robot} has been heard for {PATIENCE:g} s; "
+                    "if the robot moves, cut its power; else start zteleop actuator"
+                )
+
+        node.subscription("watchdog", WatchdogStatus, show)
+        node.spin()

@@ -1,0 +1,53 @@
+import argparse
+
+from zteleop.bus.escape import printable
+from zteleop.bus.node import Node
+from zteleop.cli import options
+from zteleop.errors import BusError
+from zteleop.messages import DriveStatus, WatchdogStatus, Why
+
+PATIENCE = 2.0
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    options.add(parser)
+    options.add_robot(parser)
+
+
+def run(arguments: argparse.Namespace) -> None:
+    with options.join("why", options.load(arguments)) as node:
+        print(printable(explain(node), keep="\n"))
+
+
+def explain(node: Node) -> str:
+    """Return a line for the robot and one for each layer between a key and a wheel."""
+    statuses, whys = node.subscription("drive_status", DriveStatus), node.subscription("why", Why)
+    dogs = node.subscription("watchdog", WatchdogStatus)
+    status, why, dog = None, None, None
+
+    def complete() -> bool:
+        nonlocal status, why, dog
+        status, why = statuses.newest() or status, whys.newest() or why
+        dog = dogs.newest() or dog
+        return bool(status and why and dog)
+
+    node.until(complete, PATIENCE)
+    if status is None and dog is None:
+        raise BusError(
+            f"no actuator of {node.robot} is heard within {PATIENCE:g} s; is it on? zteleop list shows who is"
+        )
+    lines = [
+        f"{node.robot} is {status.state}: {status.why}" if status else f"{node.robot}: no actuator heard"
+    ]
+    lines += [f"  {layer.name:9} {layer.says}" for layer in (why.layers if why else [])]
+    lines.append(f"  {'watchdog':9} {describe(dog) if dog else 'is not heard'}")
+    return "\n".join(lines)
+
+
+def describe(dog: WatchdogStatus) -> str:
+    """Return what a watchdog sees, in a line."""
+    sees = "pulses that move" if dog.moving else "pulses of rest"
+    permits = "somebody may drive" if dog.allowed else "nobody may drive"
+    steps = f"{dog.why}, last {dog.silence * 1000:.0f} ms ago" if dog.state == "watching" else dog.why
+    restarts = f"; {dog.restarts} restarts" if dog.restarts else ""
+    return f"{dog.state}: {steps}; sees {sees}, and by what it heard {permits}{restarts}"

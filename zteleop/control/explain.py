@@ -1,0 +1,121 @@
+"""Why the robot moves as it does, or does not: one sentence for each layer between a key and a wheel."""
+
+from collections.abc import Iterator
+
+from zteleop.control import curvature
+from zteleop.control.drive import Drive, Step
+from zteleop.control.mux import Claim
+from zteleop.messages import Layer, Pwm, Twist
+
+RECENT = 10.0
+"""s for which a refusal is worth a sentence."""
+_LEAST = 0.005
+"""m/s or rad/s below which two twists are one."""
+
+
+def layers(drive: Drive, step: Step, now: float) -> list[Layer]:
+    """Return the sentences, from the operator to the wheels."""
+    return [
+        Layer("operator", _operator(step, now)),
+        Layer("mux", _mux(drive, step, now)),
+        Layer("gate", _gate(drive, now)),
+        Layer("rest", _rest(drive, step, now)),
+        Layer("limiter", _limiter(drive, step)),
+        Layer("wheels", _wheels(drive, step)),
+    ]
+
+
+def _operator(step: Step, now: float) -> str:
+    claim = step.claim
+    if claim is None:
+        return "nobody operates"
+    return f"{_sender(claim)} operates, acted {now - claim.acted:.1f} s ago and asks for {_asked(claim)}"
+
+
+def _mux(drive: Drive, step: Step, now: float) -> str:
+    claims = [claim for claim in drive.mux.claims if not drive.mux.silent(claim, now)]
+    waiting = [_sender(claim) for claim in claims if claim is not step.claim]
+    priority = drive.settings.known_sources[step.claim.source].priority if step.claim else 0
+    chosen = f"{step.claim.source} drives with priority {priority}" if step.claim else "no claim counts"
+    return f"{chosen}; {', '.join(waiting)} waits" if waiting else chosen
+
+
+def _gate(drive: Drive, now: float) -> str:
+    recent = [f"{name}: {found}" for name, found in _refusals(drive, now)]
+    return f"refuses {'; '.join(recent)}" if recent else "refuses nobody"
+
+
+def _refusals(drive: Drive, now: float) -> Iterator[tuple[str, str]]:
+    for source, refused in drive.refusals.items():
+        if now - refused.at <= RECENT:
+            since, ago = now - refused.since, now - refused.at
+            yield source, f"{refused.why} ({refused.times} times in {since:.1f} s, last {ago:.1f} s ago)"
+
+
+def _rest(drive: Drive, step: Step, now: float) -> str:
+    held = drive.holds.strongest
+    if held:
+        return f"{held.state} for {now - held.since:.1f} s: {held.why}"
+    return "free to move" if step.claim else f"{step.state}: {step.why}"
+
+
+def _limiter(drive: Drive, step: Step) -> str:
+    if step.claim is None:
+        return "nothing to limit"
+    asked, applied = wanted(drive, step), drive.settings.mixer.unmix(step.wheels)
+    if _near(asked, applied):
+        return "passes it on as asked"
+    bounds = "; ".join(_bounds(drive, step.claim, asked, applied)) or "the wheels can do no better"
+    return f"makes it {_twist(applied)}: {bounds}"
+
+
+def _bounds(drive: Drive, claim: Claim, asked: Twist, applied: Twist) -> Iterator[str]:
+    """Yield what bounds a claim."""
+    mixer, limits = drive.settings.mixer, drive.settings.limits
+    cap = drive.settings.known_sources[claim.source].max_speed
+    speed = min(bound for bound in (cap, limits.speed, mixer.max_speed) if bound)
+    if abs(asked.linear.x) > speed + _LEAST:
+        yield f"{claim.source} may drive {speed:g} m/s here"
+    if abs(applied.linear.x) < min(abs(asked.linear.x), speed) - _LEAST:
+        yield f"speed changes by {limits.acceleration:g} m/s^2"
+    if limits.pulse_duty < 1:
+        yield f"the throttle is obeyed {limits.pulse_duty:.0%} of the time"
+    if abs(_bend(applied)) < abs(_bend(asked)) - _LEAST:
+        yield "it turns no tighter"
+
+
+def _wheels(drive: Drive, step: Step) -> str:
+    pulses = drive.calibration.pulses(step.wheels)
+    return ", ".join(f"{p.name} {p.pulse_us:.0f} us = {p.duty_ticks} ticks" for p in pulses)
+
+
+def wanted(drive: Drive, step: Step) -> Twist:
+    """Return what the operator asks for as a twist; rest when nobody does."""
+    if step.claim is None:
+        return Twist.planar()
+    command = step.claim.command
+    if isinstance(command, Pwm):
+        return drive.settings.mixer.unmix(drive.calibration.wheels(command))
+    return command
+
+
+def _asked(claim: Claim) -> str:
+    if isinstance(claim.command, Pwm):
+        return f"steering {claim.command.steering_ticks}, throttle {claim.command.throttle_ticks} ticks"
+    return _twist(claim.command)
+
+
+def _sender(claim: Claim) -> str:
+    return f"{claim.source} {claim.sender & 0xFFFF:04x}"
+
+
+def _twist(twist: Twist) -> str:
+    return f"{twist.linear.x:+.2f} m/s {twist.angular.z:+.2f} rad/s"
+
+
+def _bend(twist: Twist) -> float:
+    return curvature.of(twist.linear.x, twist.angular.z)
+
+
+def _near(one: Twist, other: Twist) -> bool:
+    return abs(one.linear.x - other.linear.x) < _LEAST and abs(one.angular.z - other.angular.z) < _LEAST

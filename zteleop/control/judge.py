@@ -1,0 +1,110 @@
+"""A second opinion on what the actuator does, from the same commands and by the same gate, a little later."""
+
+from collections.abc import Mapping
+
+from msgspec.structs import replace
+
+from zteleop.control.drive import Drive, DriveSettings
+from zteleop.control.gate import SENDERS, Refusal
+from zteleop.control.mux import Claim, Mux
+from zteleop.control.proof import Proof
+from zteleop.messages import Pwm, Twist
+
+GRACE = 0.25
+"""s that the actuator has to do what its deadlines ask, before the watchdog does it."""
+LOOKS = 2
+"""How many looks in a row must find the same fault: one may fall between a command and its pulse."""
+
+
+class Claims(Mux):
+    """Keeps every claim until its silence: who drives, and who lets go, is the actuator's question.
+
+    It may have lost the message by which somebody let go, and then its own deadline is what counts.
+    """
+
+    def offer(self, claim: Claim) -> bool:
+        """Take every claim."""
+        self._claims[f"{claim.source} {claim.sender}"] = claim
+        if len(self._claims) > SENDERS:
+            del self._claims[next(iter(self._claims))]
+        return True
+
+    def release(self, sender: int) -> None:
+        """Let nobody go before his silence."""
+
+    def select(self, now: float) -> Claim | None:
+        """Return any claim that may move the robot, or None when nobody may."""
+        return next(
+            (c for c in self._claims.values() if not self.silent(c, now) and not self.idle(c, now)), None
+        )
+
+
+class Judge:
+    """Knows which commands may move the robot now, and whether the chip's pulses are those of rest."""
+
+    def __init__(self, settings: DriveSettings, tick_us: float, now: float) -> None:
+        later = _later(settings)
+        claims = Claims(later.known_sources, later.deadlines.operator)
+        self._drive = Drive(later, tick_us, -1, now, claims)
+        self.neutral_us = self._drive.calibration.neutral_us
+        self._tick_us = tick_us
+        self._epoch = -1
+        self._bad_looks = 0
+        self.moving = False
+
+    def hear_report(self, epoch: int, since: float) -> None:
+        """Learn of the actuator's epoch and when it began; what began before counts for nothing."""
+        if epoch != self._epoch:
+            self._epoch = epoch
+            self._drive.restart(epoch, since - GRACE)
+
+    def receive(self, source: str, command: Twist | Pwm, proof: Proof | None, now: float) -> Refusal | None:
+        """Judge a command that the watchdog heard itself."""
+        return self._drive.receive(source, command, proof, now)
+
+    def rest(self, stopped: bool, now: float) -> None:
+        """Learn whether a stop is in force; after its release only what begins anew counts."""
+        if stopped:
+            self._drive.hold("stop", "stopped", "a stop is in force", now)
+        else:
+            self._drive.free("stop", now - GRACE)
+
+    @property
+    def stopped(self) -> bool:
+        return bool(self._drive.holds)
+
+    def allowed(self, now: float) -> bool:
+        """Say whether somebody may drive now."""
+        return not self._drive.holds and self._drive.mux.select(now) is not None
+
+    def at_rest(self, pulse_us: Mapping[int, float | None]) -> bool:
+        """Say whether these pulses are neutral, to half a tick, or none at all."""
+        return all(
+            width is None or abs(width - self.neutral_us[channel]) <= self._tick_us / 2
+            for channel, width in pulse_us.items()
+        )
+
+    def look(self, pulse_us: Mapping[int, float | None], now: float) -> str | None:
+        """Compare the chip with what may be; return why a stop must be engaged, if it must."""
+        self.moving = not self.at_rest(pulse_us)
+        bad = self.moving and not self.allowed(now)
+        self._bad_looks = self._bad_looks + 1 if bad else 0
+        if self._bad_looks < LOOKS:
+            return None
+        step = self._drive.step(now)
+        return f"its pulses moved although {step.why}"
+
+
+def _later(settings: DriveSettings) -> DriveSettings:
+    """Return the settings with every deadline later by the grace."""
+    deadlines = replace(
+        settings.deadlines,
+        max_age=settings.deadlines.max_age + GRACE,
+        operator=settings.deadlines.operator + GRACE,
+        link_loss=settings.deadlines.link_loss + GRACE,
+    )
+    sources = {
+        name: replace(source, silence=source.silence + GRACE)
+        for name, source in settings.known_sources.items()
+    }
+    return replace(settings, deadlines=deadlines, sources=sources)

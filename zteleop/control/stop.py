@@ -1,0 +1,43 @@
+"""A stop that stays: engaged by anybody, released only by its own name."""
+
+from collections import OrderedDict
+
+from zteleop.messages import Stop
+
+REMEMBERED = 64
+"""How many past stops are known by id; what a network delivers late of them changes nothing."""
+
+
+class Latch:
+    """Holds the newest stop; `stop` is None when there is none."""
+
+    def __init__(self, stop: Stop | None = None) -> None:
+        self.stop: Stop | None = None
+        self._known: OrderedDict[int, None] = OrderedDict()
+        if stop:
+            self.obey(stop)
+
+    def obey(self, said: Stop) -> bool:
+        """Engage or release; True when that changed anything."""
+        if said.engaged:
+            return self._engage(said)
+        if self.stop is None or said.id != self.stop.id:
+            return False
+        self.stop = None
+        return True
+
+    def _engage(self, said: Stop) -> bool:
+        if said.id in self._known or (self.stop and self.stop.id == said.id):
+            return False
+        if said.id:  # 0 is nobody's: a person who says it by hand means it each time
+            self._known[said.id] = None
+        if len(self._known) > REMEMBERED:
+            self._known.popitem(last=False)
+        self.stop = said
+        return True
+
+
+def describe(stop: Stop) -> str:
+    """Return a stop in words."""
+    reason = f": {stop.why}" if stop.why else ""
+    return f"stopped by {stop.by or 'somebody'}{reason}; zteleop stop --release, then begin from neutral"

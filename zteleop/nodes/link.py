@@ -1,0 +1,100 @@
+"""The socket pair between watchdog and actuator: reports up, beats down; its end is the other's death."""
+
+import socket
+from contextlib import suppress
+from struct import Struct
+from typing import NamedTuple
+
+from zteleop.errors import DeviceError
+
+_REPORT = Struct("<dQd")
+_BYTES = 4096
+
+HEARS = b"h"
+"""The watchdog lives, and hears the bus."""
+DEAF = b"d"
+"""The watchdog lives, and does not hear the actuator's beats on the bus."""
+STOP = b"s"
+"""A stop is in the stop file: obey it now."""
+
+
+class Report(NamedTuple):
+    """One step of the actuator."""
+
+    stepped: float
+    epoch: int
+    since: float
+    """when the epoch began"""
+
+
+class End:
+    """One end; never blocks, because the other side may be frozen."""
+
+    def __init__(self, file: socket.socket) -> None:
+        self._socket = file
+        file.setblocking(False)
+
+    def fileno(self) -> int:
+        return self._socket.fileno()
+
+    def close(self) -> None:
+        self._socket.close()
+
+    def _send(self, data: bytes) -> None:
+        with suppress(OSError):  # full: the other side is frozen; broken: it is gone, which `read` tells
+            self._socket.send(data)
+
+    def _read(self) -> bytes | None:
+        """Return what has arrived; None when the other side is gone."""
+        try:
+            return self._socket.recv(_BYTES) or None
+        except BlockingIOError:
+            return b""
+        except OSError:
+            return None
+
+
+class ActuatorEnd(End):
+    """Reports every step, and hears whether somebody watches."""
+
+    def report(self, report: Report) -> None:
+        self._send(_REPORT.pack(*report))
+
+    def read(self) -> bytes:
+        """Return the words that arrived; raises DeviceError when the watchdog is gone."""
+        words = self._read()
+        if words is None:
+            raise DeviceError("the watchdog is gone; the actuator does not run without one")
+        return words
+
+
+class WatchdogEnd(End):
+    """Says that it watches, and hears each step."""
+
+    def __init__(self, file: socket.socket) -> None:
+        super().__init__(file)
+        self._rest = b""
+
+    def say(self, word: bytes) -> None:
+        self._send(word)
+
+    def read(self) -> Report | None:
+        """Return the newest report that arrived; raises EOFError when the actuator is gone."""
+        data = self._read()
+        if data is None:
+            raise EOFError
+        data = self._rest + data
+        whole = len(data) // _REPORT.size * _REPORT.size
+        self._rest = data[whole:]
+        return Report(*_REPORT.unpack_from(data, whole - _REPORT.size)) if whole else None
+
+
+def pair() -> tuple[WatchdogEnd, socket.socket]:
+    """Return the watchdog's end, and the socket to hand to the actuator's process."""
+    ours, theirs = socket.socketpair()
+    return WatchdogEnd(ours), theirs
+
+
+def adopt(number: int) -> ActuatorEnd:
+    """Return the actuator's end, from the file descriptor it was started with."""
+    return ActuatorEnd(socket.socket(fileno=number))

@@ -1,0 +1,89 @@
+"""The chip, never trusted: what fails is written again, what was forgotten is noticed and repaired."""
+
+from collections.abc import Callable, Mapping
+
+from zteleop.control.drive import Drive
+from zteleop.drivers import PulseDriver
+from zteleop.errors import DeviceError
+
+FAILED_STEPS = 3
+"""in a row that make a fault; each has written three times already"""
+REPAIR_EVERY = 0.1
+FAULT, ARMING = "chip", "arming"
+
+
+class Output:
+    """Writes pulses; keeps the drive at rest while its chip is at fault, and while the ESC arms."""
+
+    def __init__(self, driver: PulseDriver, drive: Drive, say: Callable[[str], object]) -> None:
+        self._driver, self._drive, self._say = driver, drive, say
+        self._neutral_us = drive.calibration.neutral_us
+        self._failed = 0
+        self._broken = False
+        self._repair_at = self._armed_at = 0.0
+
+    def start(self, now: float) -> None:
+        """Bring the chip up at neutral; raises DeviceError when it does not come."""
+        self._driver.start(self._neutral_us)
+        self._arm(now)
+
+    def write(self, pulse_us: Mapping[int, float], now: float) -> None:
+        """Write the pulses of a step, unless the chip is being repaired."""
+        if self._broken:
+            return
+        try:
+            self._driver.write(pulse_us)
+            self._failed = 0
+        except DeviceError as error:
+            self._failed += 1
+            if self._failed >= FAILED_STEPS:
+                self._break(str(error), now)
+
+    def check(self, now: float) -> None:
+        """Read back what the chip must not forget; after a dip of its supply, writes still succeed."""
+        if self._broken:
+            return
+        try:
+            self._look_twice()
+        except DeviceError as error:
+            self._break(str(error), now)
+
+    def tend(self, now: float) -> None:
+        """Repair the chip through neutral, and end the arming pause, when it is time."""
+        if self._broken and now >= self._repair_at:
+            self._repair(now)
+        if not self._broken and now >= self._armed_at:
+            self._drive.free(ARMING, now)
+
+    def rest(self) -> None:
+        """Leave neutral behind; raises DeviceError when the chip does not take it."""
+        self._driver.write(self._neutral_us)
+
+    def close(self) -> None:
+        self._driver.close()
+
+    def _look_twice(self) -> None:
+        try:
+            self._driver.check()
+        except DeviceError:  # a single disturbance on the wires is no fault
+            self._driver.check()
+
+    def _break(self, words: str, now: float) -> None:
+        self._broken, self._repair_at = True, now
+        self._drive.hold(FAULT, "fault", words, now)
+
+    def _repair(self, now: float) -> None:
+        self._repair_at = now + REPAIR_EVERY
+        try:
+            self._driver.start(self._neutral_us)
+        except DeviceError as error:
+            self._drive.hold(FAULT, "fault", str(error), now)
+            return
+        self._broken, self._failed = False, 0
+        self._say("the chip is back, at neutral")
+        self._arm(now)
+        self._drive.free(FAULT, now)
+
+    def _arm(self, now: float) -> None:
+        self._armed_at = now + self._driver.arming
+        self._drive.hold(ARMING, "starting", f"neutral for {self._driver.arming:g} s while the ESC arms", now)

@@ -1,0 +1,73 @@
+"""A stop on disk: it outlives processes and reboots, and a file that cannot be read means stopped."""
+
+import os
+import secrets
+import threading
+from collections.abc import Callable
+from pathlib import Path
+
+import msgspec
+
+from zteleop.messages import Stop
+
+
+class StopFile:
+    """Keeps one robot's stop; what cannot be kept is said to `warn`, and holds until the robot restarts."""
+
+    def __init__(self, path: Path, warn: Callable[[str], object]) -> None:
+        self.path, self._warn = path, warn
+
+    def exists(self) -> bool:
+        """Say whether the robot is stopped by this file; what cannot be looked at is there."""
+        try:
+            os.stat(self.path)
+        except (FileNotFoundError, NotADirectoryError):
+            return False
+        except OSError:
+            return True
+        return True
+
+    def load(self) -> Stop | None:
+        """Return the stop kept; None only where there is no file."""
+        if not self.exists():
+            return None
+        try:
+            stop = msgspec.json.decode(self.path.read_bytes(), type=Stop)
+            return msgspec.structs.replace(stop, engaged=True)
+        except (OSError, msgspec.DecodeError, UnicodeDecodeError):
+            why = f"{self.path} is there and cannot be read"
+            return Stop(engaged=True, id=secrets.randbits(53), by="nobody known", why=why[-200:])
+
+    def keep(self, stop: Stop) -> None:
+        """Keep a stop, at once for other processes; the disk itself is written behind our back."""
+        try:
+            self.path.parent.mkdir(parents=True, exist_ok=True)
+            self.path.write_bytes(msgspec.json.encode(stop))
+        except OSError as error:
+            self._warn(f"the stop holds, but not across a restart: {self.path}: {error.strerror}")
+            return
+        # An SD card may take a second for it; the loop that keeps the robot at rest must not wait.
+        threading.Thread(target=_flush, args=(self.path,), daemon=True).start()
+
+    def remove(self) -> bool:
+        """Forget the stop; False, in words, where the file stays."""
+        try:
+            self.path.unlink(missing_ok=True)
+        except OSError as error:
+            self._warn(f"the stop cannot be released: {self.path}: {error.strerror}; remove it by hand")
+            return False
+        threading.Thread(target=_flush, args=(self.path.parent,), daemon=True).start()
+        return True
+
+
+def _flush(path: Path) -> None:
+    try:
+        file = os.open(path, os.O_RDONLY)
+    except OSError:
+        return
+    try:
+        os.fsync(file)
+    except OSError:
+        pass
+    finally:
+        os.close(file)

@@ -1,0 +1,205 @@
+"""The process above the actuator: it believes only what it hears and reads itself."""
+
+import secrets
+import signal
+import time
+from collections.abc import Callable
+from types import FrameType
+
+from zteleop.bus import clock
+from zteleop.bus.node import Node
+from zteleop.control.drive import DriveSettings
+from zteleop.control.judge import GRACE, Judge
+from zteleop.drivers import PulseDriver
+from zteleop.errors import DeviceError
+from zteleop.messages import Stop, WatchdogStatus
+from zteleop.nodes import service
+from zteleop.nodes.child import Child
+from zteleop.nodes.link import DEAF, HEARS, STOP
+from zteleop.nodes.overhear import Overhearing
+from zteleop.nodes.stop_file import StopFile
+
+PERIOD = 0.02
+BEAT_EVERY = LOOK_EVERY = 0.05
+TELL_EVERY = 0.2
+SILENCE, SILENCE_AT_START = 0.25, 5.0
+"""s without a step of the actuator until it is killed."""
+LATE = 0.2
+"""s between two ticks, after which the watchdog knows that it was stopped itself."""
+FAREWELL = 1.0
+REST_PATIENCE = 2.0
+
+
+class Watchdog:
+    """Starts the actuator, watches it and the chip, and writes neutral when either is not as it must be."""
+
+    def __init__(
+        self,
+        node: Node,
+        settings: DriveSettings,
+        hand: PulseDriver,
+        child: Child,
+        stop_file: StopFile,
+        enable: Callable[[bool], object] = lambda on: None,
+    ) -> None:
+        self._node, self._hand, self._child, self._stop_file = node, hand, child, stop_file
+        self._enable = enable
+        """Lets the chip's outputs through, or cuts them, where a pin can."""
+        self._judge = Judge(settings, hand.tick_us, clock.now())
+        self._ears = Overhearing(node, settings, self._judge, stop_file)
+        self._statuses = node.publisher("watchdog", WatchdogStatus)
+        self._ticked = self._woke = clock.now()
+        self._restart_at: float | None = None
+        self._at_rest = False
+        self._why = "the actuator starts"
+        self._exit_code: int | None = None
+
+    def run(self) -> int:
+        """Watch until told to end, or until the actuator cannot start; return the exit code."""
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            signal.signal(number, self._end_by)
+        try:
+            self._start()
+            self._node.every(PERIOD)(self._tick)
+            self._node.every(BEAT_EVERY)(self._beat)
+            self._node.every(LOOK_EVERY)(self._look)
+            self._node.every(TELL_EVERY)(self._tell)
+            self._node.spin()
+        finally:
+            self._finish()
+        return self._exit_code or 0
+
+    def _end_by(self, number: int, frame: FrameType | None) -> None:
+        self._exit_code = self._exit_code or 128 + number
+        self._node.stop()
+
+    def _start(self) -> None:
+        self._restart_at = None
+        self._child.start(clock.now())
+        assert self._child.link
+        self._node.watch(self._child.link.fileno(), self._hear_actuator)
+
+    def _hear_actuator(self) -> None:
+        was_ready = self._child.ready
+        try:
+            self._child.hear()
+        except EOFError:
+            self._rest()  # before its process is even waited for
+            self._fell("it ended", GRACE)
+            return
+        if report := self._child.newest:
+            self._judge.hear_report(report.epoch, report.since)
+            if not was_ready:
+                self._why = "the actuator steps"
+                self._enable(True)
+                service.notify("READY=1")
+
+    def _tick(self) -> None:
+        """Take in what the bus says, and notice silence."""
+        now = clock.now()
+        if now - self._ticked > LATE:
+            self._woke = now
+        self._ticked = now
+        if ignored := self._ears.listen(now):
+            self._engage(ignored)
+        if self._restart_at is not None:
+            self._keep_at_rest(now)
+        elif self._silent(now):
+            self._fell(f"it was silent for {self._child.silence(now):.2f} s", 0.0)
+
+    def _silent(self, now: float) -> bool:
+        """Say whether the actuator has been silent for too long while the watchdog was there to hear it."""
+        limit = SILENCE if self._child.ready else SILENCE_AT_START
+        return min(self._child.silence(now), now - self._woke) > limit
+
+    def _beat(self) -> None:
+        report = self._child.newest
+        hears = self._ears.hears(report.epoch if report else None, clock.now())
+        if self._child.link:
+            self._child.link.say(HEARS if hears else DEAF)
+        service.notify("WATCHDOG=1")
+
+    def _look(self) -> None:
+        """Read the chip; what moves without a reason is stopped, and what does not obey that is killed."""
+        if self._restart_at is not None:
+            return
+        try:
+            why = self._judge.look(self._hand.read(self._judge.neutral_us), clock.now())
+        except DeviceError as error:
+            self._node.log.warn(f"cannot read the chip: {error}", "read")
+            return
+        if why and self._judge.stopped:
+            self._fell(why, 0.0)
+        elif why:
+            self._engage(Stop(engaged=True, id=secrets.randbits(53), by="the watchdog", why=why))
+
+    def _engage(self, stop: Stop) -> None:
+        self._node.log.error(f"stops the robot: {stop.why or stop.by}")
+        self._stop_file.keep(stop)
+        if self._child.link:
+            self._child.link.say(STOP)
+        self._rest()
+
+    def _fell(self, why: str, patience: float) -> None:
+        """Make sure that the actuator is gone, bring the chip to rest, and start another."""
+        now = clock.now()
+        if self._child.link:
+            self._node.unwatch(self._child.link.fileno())
+        never_stepped = self._child.starts == 1 and not self._child.ready
+        code = self._child.end(patience)
+        self._rest()
+        if never_stepped and code and code > 0:  # it has said why, in a sentence of its own
+            self._exit_code = code
+            self._node.stop()
+            return
+        self._restart_at = now + self._child.pause(now)
+        self._why = f"the actuator is gone: {why}"
+        self._node.log.error(f"{self._why}; the chip is kept at rest and another starts")
+
+    def _keep_at_rest(self, now: float) -> None:
+        """Write neutral until it is there and nobody else can write, then start another actuator."""
+        gone = self._child.gone
+        if not (self._at_rest and gone):
+            self._rest()
+        elif self._restart_at is not None and now >= self._restart_at:
+            self._start()
+
+    def _rest(self) -> None:
+        """Write neutral and read it back; without an answer cut the outputs."""
+        neutral_us = self._judge.neutral_us
+        try:
+            self._hand.start(neutral_us)
+            self._at_rest = self._judge.at_rest(self._hand.read(neutral_us))
+        except DeviceError as error:
+            self._at_rest = False
+            self._node.log.error(f"cannot bring the chip to rest: {error}", "rest")
+        if not self._at_rest:
+            self._enable(False)
+
+    def _finish(self) -> None:
+        """Leave last, after neutral."""
+        service.notify("STOPPING=1")
+        self._child.ask_to_end()
+        self._child.end(FAREWELL)
+        give_up = clock.now() + REST_PATIENCE
+        self._rest()
+        while not self._at_rest and clock.now() < give_up:
+            time.sleep(PERIOD)
+            self._rest()
+        self._enable(False)
+        self._hand.close()
+
+    def _tell(self) -> None:
+        now = clock.now()
+        resting = self._restart_at is not None
+        self._statuses.publish(
+            WatchdogStatus(
+                state="resting" if resting else "watching" if self._child.ready else "starting",
+                why=self._why,
+                silence=max(0.0, self._child.silence(now)),
+                moving=self._judge.moving,
+                allowed=self._judge.allowed(now),
+                commands=self._ears.commands % 2**32,
+                restarts=self._child.starts - 1,
+            )
+        )
