@@ -3,7 +3,7 @@
 PYTHON ?= python3
 BIN := .venv/bin
 
-.PHONY: demo test lint format schemas bench clean
+.PHONY: demo test lint format schemas bench faults clean
 
 demo: .venv/installed
 	@$(BIN)/zteleop demo
@@ -26,6 +26,9 @@ schemas: .venv/installed
 bench: .venv/installed-dev
 	@for name in key_to_wheel publish_to_handler control_and_codec shell idle_cost flood; do \
 		$(BIN)/python benchmarks/$$name.py || exit 1; done
+
+faults: .venv/installed-dev
+	@cd tests && ../$(BIN)/python -m faults.table $(if $(I2C),--i2c) $(if $(TIMES),--times $(TIMES))
 
 clean:
 	rm -rf .venv

@@ -6,6 +6,8 @@ import time
 from collections.abc import Callable
 from itertools import cycle
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Protocol
 
 from figures import is_quick, print_table, verdict
 from robot import LEFT, RAW_LINE, RIGHT, Operator, Robot
@@ -28,13 +30,25 @@ with open_session(**{{"connect/endpoints": [{endpoint!r}]}}) as session:
 """
 
 
-def private_mb(process: "subprocess.Popen[str]") -> float:
+class Running(Protocol):
+    """A process that somebody runs."""
+
+    pid: int
+
+
+def child_of(process: Running) -> Running:
+    """Return the process that this one started."""
+    children = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+    return SimpleNamespace(pid=int(children[0]))
+
+
+def private_mb(process: Running) -> float:
     """Return the memory that would be free without this process."""
     lines = Path(f"/proc/{process.pid}/smaps_rollup").read_text().splitlines()
     return sum(int(line.split()[1]) for line in lines if line.startswith("Private_")) / 1024
 
 
-def cpu_seconds(process: "subprocess.Popen[str]") -> float:
+def cpu_seconds(process: Running) -> float:
     """Return how long all threads of a process have run, to the nanosecond."""
     tasks = Path(f"/proc/{process.pid}/task").glob("*/schedstat")
     return sum(int(task.read_text().split()[0]) for task in tasks) / 1e9
@@ -47,7 +61,8 @@ def main() -> None:
         for _ in operator.steer(20):
             pass
         processes = {
-            "actuator": robot.actuator,
+            "watchdog": robot.actuator,
+            "actuator": child_of(robot.actuator),
             "keyboard": operator.process,
             "sim": robot.start("sim", "--connect", robot.endpoint, "--listen", "tcp/127.0.0.1:0"),
             "subscriber: Node, handler": _python(robot, SUBSCRIBER),
@@ -60,13 +75,14 @@ def main() -> None:
         for name, process in processes.items():
             memory = private_mb(process)
             target = "" if name.startswith("peer") else verdict(memory, MEMORY_TARGET, "MB")
-            cpu = verdict(max(idle[name], driven[name]), CPU_TARGET, "%") if name == "actuator" else ""
+            ours = name in ("watchdog", "actuator")
+            cpu = verdict(max(idle[name], driven[name]), CPU_TARGET, "%") if ours else ""
             rows.append((name, memory, target, idle[name], driven[name], cpu))
     head = ["process", "own MB", "target", "% idle", "% driven", "target"]
     print_table(f"memory and share of one core over {seconds:g} s, at rest and driven at 20 Hz", head, rows)
 
 
-def _shares(processes: "dict[str, subprocess.Popen[str]]", act: Callable[[], None]) -> dict[str, float]:
+def _shares(processes: dict[str, Running], act: Callable[[], None]) -> dict[str, float]:
     """Return the percentage of one core that each process takes during an act."""
     before, began = {name: cpu_seconds(process) for name, process in processes.items()}, time.monotonic()
     act()

@@ -6,6 +6,7 @@ Both run in this process, one after the other; zenoh and the operating system be
 import tempfile
 import time
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import zenoh
@@ -22,7 +23,10 @@ from zteleop.control.report import describe
 from zteleop.drivers import open_driver
 from zteleop.inputs.keyboard import Keyboard
 from zteleop.inputs.levers import Steps
+from zteleop.nodes import link
 from zteleop.nodes.actuator import AT_MOST_EVERY, Actuator
+from zteleop.nodes.journal import Journal
+from zteleop.nodes.stop_file import StopFile
 from zteleop.nodes.teleop import Teleop
 
 KEYS = (b"\x1b[D", b"\x1b[C")
@@ -71,6 +75,9 @@ class HeldNode(Node):
     def every(self, period: float) -> Any:
         return self.timers.append
 
+    def watch(self, file: int, action: Callable[[], object]) -> None:
+        self.watched = action
+
 
 def own_share(presses: int) -> OwnShare:
     """Press keys; return what each cost."""
@@ -80,13 +87,28 @@ def own_share(presses: int) -> OwnShare:
         settings = DriveSettings()
         driver = StampedDriver(open_driver("simulated", {"path": f"{folder}/chip"}))
         robot = HeldNode("actuator", node.session)
-        robot.spin = lambda: _press_all(node, robot, settings, driver, share, presses)
-        Actuator(robot, settings, driver).run()
+        watchdog, theirs = link.pair()
+
+        def press_all() -> None:
+            watchdog.say(link.HEARS)
+            robot.watched()
+            _press_all(node, robot, settings, driver, share, presses, watchdog)
+
+        robot.spin = press_all
+        end = link.ActuatorEnd(theirs)
+        stop_file = StopFile(Path(folder) / "stop", print)
+        Actuator(robot, settings, driver, end, stop_file, Journal(Path(folder), "acts")).run()
     return share
 
 
 def _press_all(
-    node: HeldNode, actuator: HeldNode, settings: DriveSettings, driver: Any, share: OwnShare, presses: int
+    node: HeldNode,
+    actuator: HeldNode,
+    settings: DriveSettings,
+    driver: Any,
+    share: OwnShare,
+    presses: int,
+    watchdog: link.WatchdogEnd,
 ) -> None:
     terminal, views = TypedTerminal(), []
     keyboard = Keyboard("step", terminal=terminal)  # type: ignore[arg-type]
@@ -94,8 +116,11 @@ def _press_all(
     paint = painter(keyboard, "bench", Steps())
     inbox, handler = actuator.inboxes["pwm/keyboard"]
     for index in range(WARM_UP + presses):
+        watchdog.say(link.HEARS)
+        actuator.watched()
         for act in actuator.timers:  # beats, status, and the clock's own step
             act()
+        watchdog.read()
         teleop.obey()
         for _ in inbox.take():
             pass

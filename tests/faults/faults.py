@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import NamedTuple
 
+import preload
 from rig import NEUTRAL, Process, Rig, every, repeating, until
 
 from zteleop.bus.node import Node
@@ -91,6 +92,13 @@ FAULTS = (
     Fault("sender killed", 0.05, to_sender(signal.SIGKILL), alone=True),
     Fault("sender frozen", 0.35, to_sender(signal.SIGSTOP), alone=True),
 )
+
+
+def on_i2c(rig: Rig) -> None:
+    """Give the robot the real driver, on an emulated /dev/i2c-1 whose chip is where the simulated one was."""
+    rig.environment |= preload.environment(preload.library(rig.folder), rig.chip)
+    config = "[drivers.pca9685]\nbus = 1\narming = 0.1\n"
+    (rig.folder / "config.toml").write_text(f'driver = "pca9685"\n{config}')
 
 
 @contextmanager

@@ -4,7 +4,7 @@ import re
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, TypeVar
 
 import pytest
 
@@ -30,6 +30,9 @@ DRIVEN = {0: 1800.0, 1: 1200.0}
 NEUTRAL_TICKS, DRIVEN_TICKS = [368, 368], [441, 294]
 
 
+T = TypeVar("T", I2C, PulseDriver)
+
+
 class Bench:
     """A chip that has just got power, seen from outside, and ways to open its bus."""
 
@@ -42,11 +45,13 @@ class Bench:
         self._opened: list[Any] = []
 
     def i2c(self) -> I2C:
-        return self._keep(SimulatedI2C(open_chip(self.path), self.path))
+        i2c: I2C = SimulatedI2C(open_chip(self.path), self.path)
+        return self._keep(i2c)
 
     def driver(self, **settings: Any) -> PulseDriver:
         bus = SimulatedI2C(open_chip(self.path), self.path)
-        return self._keep(Pca9685(bus, Pca9685Settings(**settings), lambda _: None))
+        driver: PulseDriver = Pca9685(bus, Pca9685Settings(**settings), lambda _: None)
+        return self._keep(driver)
 
     def started(self, **settings: Any) -> PulseDriver:
         driver = self.driver(**settings)
@@ -61,7 +66,7 @@ class Bench:
         for thing in [*self._opened, self.registers, self.faults]:
             thing.close()
 
-    def _keep(self, thing: Any) -> Any:
+    def _keep(self, thing: T) -> T:
         self._opened.append(thing)
         return thing
 

@@ -77,7 +77,7 @@ def messages_of_one_transaction_share_a_stop(bench: Bench) -> None:
         read = i2c_msg.read(0x40, 2)
         point = i2c_msg.write(0x40, [LED0_ON_L + 2])
         bus.i2c_rdwr(i2c_msg.write(0x40, [LED0_ON_L, 0, 0, 0x70, 0x01]), point, read)
-        assert list(read) == [0x70, 0x01]
+        assert bytes(read) == bytes([0x70, 0x01])
         write = i2c_msg.write(0x40, [LED0_ON_L, 0, 0, 0x71, 0x01])
         with pytest.raises(OSError, match="Remote I/O error"):
             bus.i2c_rdwr(write, i2c_msg.write(0x41, [0, 0]))

@@ -30,6 +30,9 @@ SOURCES = {
     "program": Source(priority=50, silence=0.5),
 }
 
+FOREIGN_SILENCE = 0.5
+"""s after which a foreign sender that moved begins anew."""
+
 
 class DriveSettings(Struct, frozen=True, forbid_unknown_fields=True):
     """The vehicle, who may drive it, and its bounds."""
@@ -76,10 +79,16 @@ class Drive:
     """Takes commands in, gives pulses out; owns no clock and no chip."""
 
     def __init__(
-        self, settings: DriveSettings, tick_us: float, epoch: int, now: float, mux: Mux | None = None
+        self,
+        settings: DriveSettings,
+        tick_us: float,
+        epoch: int,
+        now: float,
+        mux: Mux | None = None,
+        grace: float = 0.0,
     ) -> None:
         self.settings = settings
-        self.gate = Gate(settings.deadlines, epoch, now)
+        self.gate = Gate(settings.deadlines, epoch, now, grace)
         self._sources = settings.known_sources
         self.mux = mux or Mux(self._sources, settings.deadlines.operator)
         self.refused = self.clamped = 0
@@ -91,7 +100,8 @@ class Drive:
         self._wheel_limiter = WheelLimiter(settings.limits, settings.mixer, settings.servos)
         self.calibration = Calibration(settings.servos, tick_us)
         self._foreign: dict[str, Prover] = {}
-        self._stepped = now
+        self._foreign_silence = FOREIGN_SILENCE - grace
+        self._since = self._stepped = now
 
     def late(self, now: float) -> bool:
         """Say whether the robot itself was stopped since the last step."""
@@ -101,7 +111,8 @@ class Drive:
         """Forget every claim and begin a new epoch."""
         self.gate.restart(epoch, now)
         self.mux.clear()
-        self._stepped = now
+        self._foreign.clear()
+        self._since = self._stepped = now
 
     def hold(self, reason: str, state: State, why: str, now: float) -> None:
         """Keep the robot at rest for a reason until `free`; nothing softens it."""
@@ -195,10 +206,16 @@ class Drive:
 
     def _vouch(self, source: str, moving: bool, now: float) -> Proof | None:
         """Make the proof of a foreign sender from its arrival: each command is an act of now."""
-        prover = self._foreign.setdefault(source, Prover(-len(self._foreign) - 1))
+        prover = self._foreign.get(source) or self._meet(source)
         beat = Beat(self.gate.epoch, now)
         prover.act(beat)
         return prover.prove(beat, moving, now)
+
+    def _meet(self, source: str) -> Prover:
+        """Make a foreign sender's prover; what it did before the start, nobody knows."""
+        prover = self._foreign[source] = Prover(-len(self._foreign) - 1, self._foreign_silence)
+        prover.prove(None, True, self._since)
+        return prover
 
     def _moves(self, command: Twist | Pwm) -> bool:
         if isinstance(command, Pwm):

@@ -50,21 +50,24 @@ class Seen(Struct):
 
 
 class Gate:
-    """Knows the present epoch and the last live command of each sender."""
+    """Knows the present epoch and the last live command of each sender.
 
-    def __init__(self, deadlines: Deadlines, epoch: int, now: float) -> None:
-        self._deadlines = deadlines
+    With a grace, in seconds, it is a second opinion: where it cannot know better it lets pass.
+    """
+
+    def __init__(self, deadlines: Deadlines, epoch: int, now: float, grace: float = 0.0) -> None:
+        self._deadlines, self._grace = deadlines, grace
         self._senders: OrderedDict[int, Seen] = OrderedDict()
         self.restart(epoch, now)
 
     def restart(self, epoch: int, now: float) -> None:
         """Forget every sender; what began before now is over."""
-        self.epoch, self._floor = epoch, now
+        self.epoch, self._floor = epoch, now - self._grace
         self._senders.clear()
 
     def begin_after(self, now: float) -> None:
         """Count only claims that leave neutral later than now."""
-        self._floor = max(self._floor, now)
+        self._floor = max(self._floor, now - self._grace)
 
     def judge(self, proof: Proof | None, moving: bool, now: float) -> Refusal | None:
         """Return why a command is refused, or None when it counts."""
@@ -87,10 +90,14 @@ class Gate:
     def _remember(self, proof: Proof, seen: Seen | None, moving: bool, now: float) -> float:
         """Note a live command; return the time after which its claim must have begun."""
         floor = seen.floor if seen else NEVER
-        if seen and seen.moving and now - seen.at > self._deadlines.link_loss:
-            floor = seen.at + self._deadlines.link_loss
+        heard = seen.at if seen and seen.moving else NEVER
+        loss = self._deadlines.link_loss + self._grace
+        if moving and now - max(heard, proof.began) > loss:  # it may have begun while nothing was heard
+            floor = max(floor, now - loss)
+        if now - heard > loss and not self._grace:
+            floor = max(floor, heard + loss)
         self._senders[proof.sender] = Seen(proof.seq, proof.beat, now, moving, floor)
         self._senders.move_to_end(proof.sender)
         if len(self._senders) > SENDERS:
-            self._floor = max(self._floor, self._senders.popitem(last=False)[1].at)
+            self._floor = max(self._floor, self._senders.popitem(last=False)[1].at - self._grace)
         return max(floor, self._floor)

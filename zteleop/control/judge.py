@@ -45,7 +45,7 @@ class Judge:
     def __init__(self, settings: DriveSettings, tick_us: float, now: float) -> None:
         later = _later(settings)
         claims = Claims(later.known_sources, later.deadlines.operator)
-        self._drive = Drive(later, tick_us, -1, now, claims)
+        self._drive = Drive(later, tick_us, -1, now, claims, GRACE)
         self.neutral_us = self._drive.calibration.neutral_us
         self._tick_us = tick_us
         self._epoch = -1
@@ -56,7 +56,7 @@ class Judge:
         """Learn of the actuator's epoch and when it began; what began before counts for nothing."""
         if epoch != self._epoch:
             self._epoch = epoch
-            self._drive.restart(epoch, since - GRACE)
+            self._drive.restart(epoch, since)
 
     def receive(self, source: str, command: Twist | Pwm, proof: Proof | None, now: float) -> Refusal | None:
         """Judge a command that the watchdog heard itself."""
@@ -67,7 +67,7 @@ class Judge:
         if stopped:
             self._drive.hold("stop", "stopped", "a stop is in force", now)
         else:
-            self._drive.free("stop", now - GRACE)
+            self._drive.free("stop", now)
 
     @property
     def stopped(self) -> bool:
@@ -101,7 +101,6 @@ def _later(settings: DriveSettings) -> DriveSettings:
         settings.deadlines,
         max_age=settings.deadlines.max_age + GRACE,
         operator=settings.deadlines.operator + GRACE,
-        link_loss=settings.deadlines.link_loss + GRACE,
     )
     sources = {
         name: replace(source, silence=source.silence + GRACE)

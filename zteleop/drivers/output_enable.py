@@ -95,7 +95,8 @@ def _failure(error: OSError, name: str, owner: str = "") -> DeviceError:
     chip = name.rpartition(" ")[2]
     sentences = {
         errno.ENOENT: f"{chip} not found; gpiodetect lists the chips, set oe_chip to one of them",
-        errno.ENODEV: f"{chip} is not a GPIO chip; gpiodetect lists them, set oe_chip to one of them",
+        errno.ENODEV: f"{chip} is no GPIO chip, or no longer; gpiodetect lists them, "
+        "set oe_chip to one of them",
         errno.EACCES: f"{chip}: no permission; add yourself to group gpio (sudo usermod -aG gpio $USER) "
         "and log in again",
         errno.EBUSY: f"{name} is taken by {owner or 'somebody without a name'} (gpioinfo); "

@@ -70,6 +70,7 @@ class Output:
 
     def _break(self, words: str, now: float) -> None:
         self._broken, self._repair_at = True, now
+        self._say(f"the chip is at fault: {words}")
         self._drive.hold(FAULT, "fault", words, now)
 
     def _repair(self, now: float) -> None:

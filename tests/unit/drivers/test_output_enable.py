@@ -25,7 +25,7 @@ class Value(Enum):
 
 
 @dataclass
-class LineSettings:
+class Settings:
     direction: Direction = Direction.AS_IS
     active_low: bool = False
     output_value: Value = Value.INACTIVE
@@ -34,7 +34,7 @@ class LineSettings:
 class Pin:
     """A line as a voltmeter sees it, in the hands of a request."""
 
-    def __init__(self, settings: LineSettings) -> None:
+    def __init__(self, settings: Settings) -> None:
         self.is_low, self.released, self.error = False, False, 0
         self._active_low = settings.active_low
         self.set_value(17, settings.output_value)
@@ -69,18 +69,18 @@ class FakeGpiod:
     """Stands for the module, version 2, with one line 17."""
 
     line = SimpleNamespace(Direction=Direction, Value=Value)
-    LineSettings = LineSettings
+    LineSettings = Settings
 
     def __init__(self, error: Exception | int | None = None, consumer: str = "") -> None:
         self.error = OSError(error, os.strerror(error)) if isinstance(error, int) else error
         self.consumer = consumer
-        self.requests: list[tuple[str, str | None, LineSettings]] = []
+        self.requests: list[tuple[str, str | None, Settings]] = []
 
     def Chip(self, path: str) -> Chip:  # noqa: N802
         return Chip(path, self.consumer)
 
     def request_lines(
-        self, path: str, config: dict[int | str, LineSettings | None], consumer: str | None = None
+        self, path: str, config: dict[int | str, Settings | None], consumer: str | None = None
     ) -> Pin:
         if self.error:
             raise self.error
@@ -126,7 +126,7 @@ def test_closing_keeps_the_pulses_in_and_gives_the_line_back(gpiod: FakeGpiod, p
 def test_a_line_that_no_longer_obeys_says_so_and_is_given_back(gpiod: FakeGpiod, pin: OutputEnable) -> None:
     gpiod.pin.error = errno.ENODEV
     for act in (pin.enable, pin.disable, pin.close):
-        with pytest.raises(DeviceError, match=r"^/dev/gpiochip0 is not a GPIO chip"):
+        with pytest.raises(DeviceError, match=r"^/dev/gpiochip0 is no GPIO chip, or no longer"):
             act()
     assert gpiod.pin.released
 
@@ -137,7 +137,7 @@ def test_a_line_that_no_longer_obeys_says_so_and_is_given_back(gpiod: FakeGpiod,
         (errno.ENOENT, "/dev/gpiochip0 not found; gpiodetect lists the chips, set oe_chip to one of them"),
         (
             errno.ENODEV,
-            "/dev/gpiochip0 is not a GPIO chip; gpiodetect lists them, set oe_chip to one of them",
+            "/dev/gpiochip0 is no GPIO chip, or no longer; gpiodetect lists them, set oe_chip to one of them",
         ),
         (
             errno.EACCES,

@@ -238,3 +238,16 @@ def test_a_second_driver_of_one_chip_is_refused_unless_it_is_the_watchdogs_hand(
     open_driver(Pca9685Settings(), exclusive=False).close()
     first.close()
     open_driver(Pca9685Settings()).close()
+
+
+def test_whoever_inherits_what_is_shared_keeps_others_off_too(wire: Wire, tmp_path: Path) -> None:
+    driver = Pca9685(wire, Pca9685Settings())
+    assert driver.shared() == []
+    driver.claim(str(tmp_path / "lock"))
+    inherited = [os.dup(file) for file in driver.shared()]
+    driver.close()
+    with pytest.raises(DeviceError, match="driven by process"):
+        Pca9685(wire, Pca9685Settings()).claim(str(tmp_path / "lock"))
+    for file in inherited:
+        os.close(file)
+    Pca9685(wire, Pca9685Settings()).claim(str(tmp_path / "lock"))

@@ -108,8 +108,10 @@ def test_a_transfer_meets_the_fault_that_was_put_in(path: str) -> None:
 
 
 def test_the_simulated_esc_arms_at_once_unless_told_otherwise(path: str) -> None:
-    for settings, arming in (({}, 0.0), ({"arming": 1.5}, 1.5)):
-        driver = open_driver("simulated", {"path": path} | settings)
+    for driver, arming in (
+        (open_driver("simulated", {"path": path}, exclusive=False), 0.0),
+        (open_driver("simulated", {"path": path, "arming": 1.5}, exclusive=False), 1.5),
+    ):
         assert driver.arming == arming
         driver.close()
 

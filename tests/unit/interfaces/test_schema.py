@@ -14,6 +14,7 @@ KEYWORDS = {
     "additionalProperties",
     "anyOf",
     "default",
+    "maxLength",
     "description",
     "discriminator",
     "enum",

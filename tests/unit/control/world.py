@@ -1,0 +1,472 @@
+"""A robot, its watchdog's judge and several senders, on a network that does what it likes.
+
+What may move the robot is kept here a second time, from what really happened and not from what the
+drive remembers: see `Truth`.
+"""
+
+from collections import deque
+from collections.abc import Callable
+from heapq import heappop, heappush
+from random import Random
+from typing import NamedTuple
+
+from zteleop.control.drive import Drive, DriveSettings, Step
+from zteleop.control.judge import Judge
+from zteleop.control.limiter import Limits
+from zteleop.control.mux import Source
+from zteleop.control.proof import NEVER, Proof, Prover
+from zteleop.messages import Beat, Pwm, State, Stop, Twist
+
+TICK_US = 4.08
+NEUTRAL = {0: 1509.6, 1: 1530.0}
+COMMANDS = (Twist.planar(0.5), Twist.planar(-0.3, 0.4), Twist.planar(0.0, 1.0), Pwm(390, 400), Pwm(350, 370))
+RESTS = (Twist.planar(), Pwm(375, 370))
+SETTINGS = DriveSettings(
+    limits=Limits(acceleration=1000.0), sources={"nav": Source(10, silence=0.5, trust="arrival")}
+)
+SILENCE = {"keyboard": 0.3, "gamepad": 0.3, "web": 0.3, "program": 0.5, "nav": 0.5}
+SENDERS = ("keyboard", "keyboard", "web", "gamepad", "program")
+MAX_AGE, OPERATOR, LINK_LOSS, LATE = 0.3, 5.0, 2.0, 0.2
+JUDGE_HEARS, JUDGE_LOOKS = 0.02, 0.05
+PRIORITY: tuple[State, ...] = ("stopped", "fault", "starting")
+
+
+class Told(NamedTuple):
+    """A command, and what is true of it by the robot's clock."""
+
+    source: str
+    sender: int
+    number: int
+    command: Twist | Pwm
+    moving: bool
+    proof: Proof | None
+    epoch: int
+    beat: float
+    acted: float
+    began: float
+
+
+class Heard(NamedTuple):
+    number: int
+    moving: bool
+    at: float
+
+
+class Truth:
+    """What may move the robot, from what really happened."""
+
+    def __init__(self, epoch: int, now: float) -> None:
+        self.heard: dict[int, Heard] = {}
+        self.claims: dict[int, tuple[Told, float]] = {}
+        self.lost: dict[int, float] = {}
+        self.dead: set[tuple[int, float]] = set()
+        """Claims that began and were not heard for too long."""
+        self.holds: dict[str, State] = {}
+        self.start(epoch, now)
+
+    def start(self, epoch: int, now: float) -> None:
+        self.epoch, self.since, self.floor = epoch, now, now
+        self.heard.clear()
+        self.claims.clear()
+        self.lost.clear()
+        self.dead.clear()
+
+    def hold(self, reason: str, state: State) -> None:
+        self.holds[reason] = state
+        self.claims.clear()
+
+    def free(self, reason: str, now: float) -> None:
+        if self.holds.pop(reason, None):
+            self.floor = now
+
+    def hear(self, told: Told, now: float) -> None:
+        """Note a command that arrived in time, in order, and from this start."""
+        if told.epoch != self.epoch or not 0 <= now - told.beat <= MAX_AGE:
+            return
+        last = self.heard.get(told.sender)
+        if last and told.number <= last.number:
+            return
+        if last and last.moving and now - last.at > LINK_LOSS:
+            self.lost[told.sender] = last.at + LINK_LOSS
+        if told.moving and now - max(told.began, last.at if last and last.moving else NEVER) > LINK_LOSS:
+            self.dead.add((told.sender, told.began))
+        self.heard[told.sender] = Heard(told.number, told.moving, now)
+        self.claims.pop(told.sender, None)
+        if told.moving:
+            self.claims[told.sender] = (told, now)
+
+    def may_move(self, now: float) -> bool:
+        return not self.holds and any(self._counts(*claim, now) for claim in self.claims.values())
+
+    def _counts(self, told: Told, at: float, now: float) -> bool:
+        return (
+            now - at <= SILENCE[told.source]
+            and now - told.acted <= OPERATOR
+            and told.began > max(self.floor, self.lost.get(told.sender, NEVER))
+            and (told.sender, told.began) not in self.dead
+        )
+
+    @property
+    def state(self) -> State | None:
+        return min(self.holds.values(), key=PRIORITY.index, default=None)
+
+
+class Sender:
+    """Somebody who drives; an honest one, with a clock of its own and a link of its own."""
+
+    def __init__(self, source: str, identity: int, clock: float) -> None:
+        self.source, self.identity, self.clock = source, identity, clock
+        self.silence = float("inf") if source == "gamepad" else 0.5
+        self.prover = Prover(identity, self.silence)
+        self.beat: Beat | None = None
+        self.hears, self.speaks, self.delay = True, True, 0.0
+        self.number = 0
+        self.command: Twist | Pwm | None = None
+        self.acts = True
+        self.frozen = False
+        self.said = NEVER
+        self._acted = self._began = NEVER
+        self._moved, self._then = False, NEVER
+
+    def hear(self, epoch: int, time: float) -> None:
+        if self.hears and not (self.beat and self.beat.epoch == epoch and self.beat.time >= time):
+            self.beat = Beat(epoch, time)
+
+    def say(self, command: Twist | Pwm, moving: bool, act: bool, now: float) -> Told:
+        if act:
+            self.prover.act(self.beat)
+            self._acted = now
+        then = now + self.clock
+        if moving and (not self._moved or then - self._then > self.silence):
+            self._began = self._acted
+        self._moved, self._then = moving, then
+        self.number += 1
+        proof = self.prover.prove(self.beat, moving, then)
+        epoch, beat = (self.beat.epoch, self.beat.time) if self.beat else (-1, NEVER)
+        return Told(
+            self.source, self.identity, self.number, command, moving, proof, epoch, beat, self._acted, self._began
+        )
+
+
+Sabotage = Callable[[Drive], None]
+
+
+class World:
+    """Everything above, one act at a time; each act ends in a step of the drive, and is judged."""
+
+    def __init__(self, random: Random, sabotage: Sabotage | None = None) -> None:
+        self.random, self.sabotage = random, sabotage
+        self.now, self.epoch = 100.0, 0
+        self.visited: dict[str, int] = {}
+        self.steps = self.moved = self.refused = 0
+        self.trail: deque[tuple[float, str, object]] = deque(maxlen=60)
+        self.wire: list[tuple[float, int, Told]] = []
+        self.ear: list[tuple[float, int, Told]] = []
+        self.held_back: list[Told] = []
+        self.recent: deque[Told] = deque(maxlen=12)
+        self.stops: deque[int] = deque(maxlen=5)
+        self.stop_in_force: Stop | None = None
+        self.unsafe: str | None = None
+        self.alarm: str | None = None
+        self._identity = self._count = 0
+        self._stepped = self._looked = self._polled = self.now
+        self._nav_due, self._foreign = NEVER, (NEVER, False, NEVER)
+        self.boot()
+        self.senders = [self._sender(source) for source in SENDERS]
+
+    # the robot
+
+    def boot(self) -> None:
+        """Start the robot's actuator and watchdog; a stop outlives both."""
+        self.judge = Judge(SETTINGS, TICK_US, self.now)
+        self.truth = Truth(self.epoch, self.now)
+        self.ear.clear()
+        self._looked = self._polled = self._nav_due = self.now
+        self.start_actuator()
+
+    def start_actuator(self) -> None:
+        self.epoch += 1
+        self._stepped = self.now
+        self.drive = Drive(SETTINGS, TICK_US, self.epoch, self.now)
+        if self.sabotage:
+            self.sabotage(self.drive)
+        self._foreign = (self.now, True, NEVER)
+        self.truth.holds.clear()
+        self.stops.clear()  # it knows none but the one that is kept
+        self.truth.start(self.epoch, self.now)
+        if self.stop_in_force:
+            self.drive.stop(self.stop_in_force, self.now)
+            self.stops.append(self.stop_in_force.id)
+            self.truth.hold("stop", "stopped")
+        self.judge.hear_report(self.epoch, self.now)
+
+    def reboot(self, back: float) -> None:
+        """Reboot; the robot's clock begins again, at a time that has been before."""
+        self.now -= back
+        self.wire = [(due - back, count, told) for due, count, told in self.wire]
+        for sender in self.senders:
+            sender.clock += back
+        self.boot()
+
+    def pass_by(self, seconds: float) -> None:
+        self.now += seconds
+        wire = self.wire
+        while wire and wire[0][0] <= self.now:
+            self._arrive(heappop(wire)[2])
+
+    def step(self) -> Step:
+        """Step, and hold what the robot does against what it may."""
+        self._notice_pause()
+        step = self.drive.step(self.now)
+        self.steps += 1
+        self.visited[step.state] = self.visited.get(step.state, 0) + 1
+        moves = step.pulse_us != NEUTRAL
+        if moves:
+            self.moved += 1
+            if not self.truth.may_move(self.now):
+                self._blame(f"it moves: {step.state}, {step.why}")
+        if (held := self.truth.state) and step.state != held:
+            self._blame(f"it should be {held}, and is {step.state}")
+        self._let_judge_look(step)
+        return step
+
+    def _blame(self, what: str) -> None:
+        self.unsafe = self.unsafe or f"at {self.now:.3f} {what}"
+
+    def _notice_pause(self) -> None:
+        if self.now - self._stepped > LATE:
+            self.truth.start(self.epoch + 1, self.now)
+            self._foreign = (self.now, True, NEVER)
+        if self.drive.late(self.now):
+            self.epoch += 1
+            self.drive.restart(self.epoch, self.now)
+            self.judge.hear_report(self.epoch, self.now)
+        self._stepped = self.now
+
+    def _arrive(self, told: Told) -> None:
+        self._notice_pause()
+        if told.proof is None and told.source == "nav":
+            told = self._found(told)
+        self.truth.hear(told, self.now)
+        if self.drive.receive(told.source, told.command, told.proof, self.now):
+            self.refused += 1
+        self._count += 1
+        due = self.now + self.random.random() * JUDGE_HEARS
+        if told.source == "nav":  # nothing but their order tells its commands apart
+            due = self._nav_due = max(due, self._nav_due)
+        heappush(self.ear, (due, self._count, told))
+
+    def _found(self, told: Told) -> Told:
+        """Return a command of a foreign sender as what its arrival makes it."""
+        then, moved, began = self._foreign
+        if told.moving and (not moved or self.now - then > 0.5):
+            began = self.now
+        self._foreign = (self.now, told.moving, began)
+        return told._replace(epoch=self.truth.epoch, beat=self.now, acted=self.now, began=began)
+
+    def _let_judge_look(self, step: Step) -> None:
+        ear, now = self.ear, self.now
+        while ear and ear[0][0] <= now:
+            due, _, told = heappop(ear)
+            self.judge.receive(told.source, told.command, told.proof, due)
+        if now - self._polled >= JUDGE_HEARS:
+            self._polled = now
+            self.judge.rest(self.stop_in_force is not None, now)
+        if now - self._looked >= JUDGE_LOOKS:
+            self._looked = now
+            if why := self.judge.look(step.pulse_us, now):
+                self.alarm = self.alarm or f"at {now:.3f} {why}"
+
+    # its senders
+
+    def _sender(self, source: str) -> Sender:
+        self._identity += 1
+        sender = Sender(source, self._identity, self.random.uniform(-1e6, 1e6))
+        sender.hear(self.epoch, self.now)
+        return sender
+
+    def say(self, sender: Sender, command: Twist | Pwm | None, act: bool) -> None:
+        """Send a command, or a neutral one; how it travels is the link's affair."""
+        sender.hear(self.epoch, max(self.now - self.random.random() * 0.06, self.truth.since))
+        sender.said = self.now
+        moving = command is not None
+        told = sender.say(command or self.random.choice(RESTS), moving, act, self.now)
+        self.recent.append(told)
+        if not sender.speaks:
+            self.held_back.append(told)
+        elif sender.delay:
+            self._count += 1
+            heappush(self.wire, (self.now + sender.delay, self._count, told))
+        else:
+            self._arrive(told)
+
+    # what happens; each act has one argument
+
+    def do(self, name: str, argument: object) -> Step:
+        self.trail.append((self.now, name, argument))
+        getattr(self, f"_{name}")(argument)
+        return self.step()
+
+    def _carry_on(self, seconds: float) -> None:
+        """Let time pass, and let everybody who holds something say so 20 times a second."""
+        self.pass_by(seconds)
+        for sender in self.senders:
+            if sender.command and not sender.frozen and self.now - sender.said >= 0.045:
+                self.say(sender, sender.command, sender.acts)
+
+    def _pause(self, seconds: float) -> None:
+        """The robot itself does nothing for a while; hours are a suspend."""
+        self.pass_by(seconds)
+
+    def _press(self, who: int) -> None:
+        sender = self.senders[who]
+        sender.command, sender.frozen = self.random.choice(COMMANDS), False
+        self.say(sender, sender.command, act=True)
+
+    def _act(self, who: int) -> None:
+        """Whoever holds something acts once more; or acts no more, and it is only said again."""
+        sender = self.senders[who]
+        sender.acts = not sender.acts
+        if sender.command:
+            self.say(sender, sender.command, sender.acts)
+
+    def _let_go(self, who: int) -> None:
+        self.senders[who].command = None
+        self.say(self.senders[who], None, act=False)
+
+    def _freeze(self, who: int) -> None:
+        """Say nothing more, or go on where it was left."""
+        self.senders[who].frozen = not self.senders[who].frozen
+
+    def _leave(self, who: int) -> None:
+        """Its process is gone; another may come in its place."""
+        sender = self.senders[who]
+        self.drive.withdraw(sender.identity, self.now)
+        self.truth.claims.pop(sender.identity, None)
+        if self.random.random() < 0.5:
+            self.senders[who] = self._sender(sender.source)
+
+    def _cut(self, who: int) -> None:
+        """Cut its link; or mend it, and what was said meanwhile is lost, or comes at once."""
+        sender = self.senders[who]
+        sender.speaks = not sender.speaks
+        if sender.speaks and self.random.random() < 0.5:
+            for told in self.held_back[-20:]:
+                self._arrive(told)
+        self.held_back.clear()
+
+    def _deafen(self, who: int) -> None:
+        self.senders[who].hears = not self.senders[who].hears
+
+    def _delay(self, seconds: float) -> None:
+        self.random.choice(self.senders).delay = seconds
+
+    def _jump(self, seconds: float) -> None:
+        self.random.choice(self.senders).clock += seconds
+
+    def _replay(self, back: int) -> None:
+        if self.recent:
+            self._arrive(self.recent[-1 - back % len(self.recent)])
+
+    def _reorder(self, within: float) -> None:
+        """Let everything under way arrive in another order."""
+        self.wire = [(self.now + self.random.random() * within, *rest) for _, *rest in self.wire[:20]]
+        self.wire.sort()
+
+    def _nav(self, moving: bool) -> None:
+        command = COMMANDS[0] if moving else RESTS[0]
+        self._arrive(Told("nav", 0, self._count, command, moving, None, 0, 0.0, 0.0, 0.0))
+
+    def _stop(self, kind: str) -> None:
+        """Press a stop; or an old one is heard again, late."""
+        if kind == "old" and not self.stops:
+            return
+        known = kind == "old"
+        identity = self.random.choice(self.stops) if known else self.random.getrandbits(53)
+        said = Stop(engaged=True, id=identity, by="somebody", why="")
+        self.drive.stop(said, self.now)
+        if not known:
+            self.stops.append(identity)
+            self.stop_in_force = said
+            self.truth.hold("stop", "stopped")
+
+    def _release(self, kind: str) -> None:
+        """Release the stop in force, or an older one, or one that never was."""
+        force = self.stop_in_force
+        identity = force.id if force else 1
+        if kind == "stale" and self.stops:
+            identity = self.stops[0]
+        elif kind == "wrong":
+            identity = self.random.getrandbits(53)
+        self.drive.stop(Stop(engaged=False, id=identity, by="", why=""), self.now)
+        if force and force.id == identity:
+            self.stop_in_force = None
+            self.truth.free("stop", self.now)
+
+    def _fault(self, on: bool) -> None:
+        self._rest("chip", "fault", on)
+
+    def _arm(self, on: bool) -> None:
+        self._rest("esc", "starting", on)
+
+    def _rest(self, reason: str, state: State, on: bool) -> None:
+        if on:
+            self.drive.hold(reason, state, "", self.now)
+            self.truth.hold(reason, state)
+        else:
+            self.drive.free(reason, self.now)
+            self.truth.free(reason, self.now)
+
+    def _restart(self, _: object) -> None:
+        self.start_actuator()
+
+    def _reboot(self, back: float) -> None:
+        self.reboot(back)
+
+
+WHO = tuple(range(len(SENDERS)))
+ON = (True, False)
+ACTS: dict[str, tuple[float, tuple[object, ...]]] = {
+    "carry_on": (60, (0.004, 0.01, 0.02, 0.05, 0.06, 0.1, 0.19)),
+    "press": (12, WHO),
+    "let_go": (9, WHO),
+    "act": (3, WHO),
+    "freeze": (3, WHO),
+    "leave": (1, WHO),
+    "cut": (2, WHO),
+    "deafen": (2, WHO),
+    "delay": (2, (0.0, 0.0, 0.02, 0.05, 0.1, 0.25, 0.35, 2.5)),
+    "jump": (1, (0.1, 0.6, 3600.0, -0.1, -3600.0)),
+    "replay": (5, tuple(range(12))),
+    "reorder": (2, (0.01, 0.1, 0.3)),
+    "nav": (2, (True, True, False)),
+    "stop": (0.8, ("new", "old", "old")),
+    "release": (3, ("right", "right", "stale", "wrong")),
+    "fault": (0.8, (True, False, False)),
+    "arm": (0.8, (True, False, False)),
+    "pause": (0.3, (0.15, 0.21, 0.5, 3.0, 4 * 3600.0)),
+    "restart": (0.3, (None,)),
+    "reboot": (0.3, (0.05, 0.3, 0.6)),
+}
+"""How often each is done in a walk, and with which arguments."""
+
+
+def walk(world: World, steps: int) -> None:
+    """Do anything in any order, and sometimes nothing but let time pass; end where something is wrong."""
+    random = world.random
+    names, weights = list(ACTS), [weight for weight, _ in ACTS.values()]
+    while world.steps < steps:
+        for name in random.choices(names, weights, k=100):
+            world.do(name, random.choice(ACTS[name][1]))
+        if random.random() < 0.05:
+            _keep_still(world)
+
+
+def _keep_still(world: World) -> None:
+    """Let nobody act, so that every deadline passes."""
+    quiet = world.random.choice((0.35, 2.2, 2.6, 5.4))
+    for sender in world.senders:
+        sender.acts = False
+    while quiet > 0:
+        quiet -= 0.15
+        world.do("carry_on", 0.15)
