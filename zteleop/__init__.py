@@ -4,27 +4,102 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from zteleop.bus.node import Node as Node
-    from zteleop.bus.session import BusSettings as BusSettings
-    from zteleop.compat.pwm_controller import PWMController as PWMController
-    from zteleop.messages import Odometry as Odometry
-    from zteleop.messages import Pwm as Pwm
-    from zteleop.messages import Twist as Twist
-    from zteleop.messages import TwistStamped as TwistStamped
+    from zteleop.bus.node import Node
+    from zteleop.bus.publisher import Publisher
+    from zteleop.bus.session import BusSettings
+    from zteleop.bus.subscription import Received, Subscription
+    from zteleop.compat.pwm_controller import PWMController
+    from zteleop.errors import BusError, ConfigError, DeviceError, MessageError, ZteleopError
+    from zteleop.messages import (
+        Beat,
+        Bool,
+        Channel,
+        DriveStatus,
+        Header,
+        Int16MultiArray,
+        Layer,
+        Log,
+        Message,
+        MultiArrayDimension,
+        MultiArrayLayout,
+        Odometry,
+        Point,
+        Pose,
+        PoseWithCovariance,
+        Pulse,
+        Pwm,
+        Quaternion,
+        Stop,
+        String,
+        Time,
+        Twist,
+        TwistStamped,
+        TwistWithCovariance,
+        Vector3,
+        Vehicle,
+        WatchdogStatus,
+        Why,
+    )
 
 _HOMES = {
-    "Node": "zteleop.bus.node",
+    "BusError": "zteleop.errors",
     "BusSettings": "zteleop.bus.session",
+    "ConfigError": "zteleop.errors",
+    "DeviceError": "zteleop.errors",
+    "MessageError": "zteleop.errors",
+    "Node": "zteleop.bus.node",
     "PWMController": "zteleop.compat.pwm_controller",
+    "Publisher": "zteleop.bus.publisher",
+    "Received": "zteleop.bus.subscription",
+    "Subscription": "zteleop.bus.subscription",
+    "ZteleopError": "zteleop.errors",
 }
 
-__all__ = ["BusSettings", "Node", "Odometry", "PWMController", "Pwm", "Twist", "TwistStamped"]
+__all__ = [
+    "Beat",
+    "Bool",
+    "BusError",
+    "BusSettings",
+    "Channel",
+    "ConfigError",
+    "DeviceError",
+    "DriveStatus",
+    "Header",
+    "Int16MultiArray",
+    "Layer",
+    "Log",
+    "Message",
+    "MessageError",
+    "MultiArrayDimension",
+    "MultiArrayLayout",
+    "Node",
+    "Odometry",
+    "PWMController",
+    "Point",
+    "Pose",
+    "PoseWithCovariance",
+    "Publisher",
+    "Pulse",
+    "Pwm",
+    "Quaternion",
+    "Received",
+    "Stop",
+    "String",
+    "Subscription",
+    "Time",
+    "Twist",
+    "TwistStamped",
+    "TwistWithCovariance",
+    "Vector3",
+    "Vehicle",
+    "WatchdogStatus",
+    "Why",
+    "ZteleopError",
+]
 
 
 def __getattr__(name: str) -> Any:
     """Import what is asked for, when it is: `zteleop --help` needs neither bus nor messages."""
-    home = _HOMES.get(name, "zteleop.messages")
-    try:
-        return getattr(import_module(home), name)
-    except AttributeError:
-        raise AttributeError(f"zteleop has no {name!r}") from None
+    if name not in __all__:
+        raise AttributeError(f"zteleop has no {name!r}")
+    return getattr(import_module(_HOMES.get(name, "zteleop.messages")), name)

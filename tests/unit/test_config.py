@@ -1,3 +1,4 @@
+import json
 import os
 import re
 from pathlib import Path
@@ -8,6 +9,8 @@ import pytest
 from zteleop import config
 from zteleop.config import Config, load, own_name, parse, places
 from zteleop.control.mixer import Differential
+from zteleop.drivers.pca9685 import Pca9685Settings
+from zteleop.drivers.simulated import SimulatedSettings
 from zteleop.errors import ConfigError
 
 ROOT = Path(__file__).parents[2]
@@ -278,3 +281,12 @@ def test_a_file_that_is_there_but_may_not_be_read_is_told(
     monkeypatch.setattr(Path, "read_bytes", refuse)
     with pytest.raises(ConfigError, match=r"^cannot read config\.toml: Permission denied$"):
         load()
+
+
+def test_the_file_at_the_top_shows_everything_that_can_be_set() -> None:
+    text = COMMENTED.sub("", (ROOT / "config.toml").read_text())
+    headings = " ".join(re.findall(r"^\[(.*)\]", text, re.MULTILINE))
+    shown = {*re.findall(r"^(\w+) = ", text, re.MULTILINE), *re.findall(r"\w+", headings), "track"}
+    tables = json.loads((ROOT / "schemas/config.json").read_text())["$defs"].values()
+    drivers = (Pca9685Settings.__struct_fields__, SimulatedSettings.__struct_fields__)
+    assert set().union(*(table["properties"] for table in tables), *drivers) <= shown

@@ -1,5 +1,6 @@
 import argparse
 import sys
+import time
 from collections.abc import Iterator
 from typing import Any
 
@@ -42,9 +43,8 @@ def run(arguments: argparse.Namespace) -> None:
 def _samples(subscriber: Any, timeout: float | None, key: str) -> Iterator[zenoh.Sample]:
     if timeout is None:
         yield from subscriber
-    import time
-
-    while timeout is not None:
+        return
+    while True:
         give_up = time.monotonic() + timeout
         while (sample := subscriber.try_recv()) is None:
             if time.monotonic() > give_up:

@@ -21,15 +21,17 @@ def run_verb(verb: str, text: str, arguments: list[str]) -> int:
     except BrokenPipeError:
         raise
     except ZteleopError as error:
-        return _fail(verb, str(error), options.debug)
+        if options.debug:
+            raise
+        return _fail(verb, str(error))
     except Exception as error:
-        return _fail(verb, f"{type(error).__name__}: {error} (a bug; --debug shows where)", options.debug)
+        if options.debug:
+            raise
+        return _fail(verb, f"{type(error).__name__}: {error} (a bug; --debug shows where)")
     finally:
         undo_signals()
 
 
-def _fail(verb: str, words: str, debug: bool) -> int:
-    if debug:
-        raise
+def _fail(verb: str, words: str) -> int:
     print(f"zteleop {verb}: {words}", file=sys.stderr)
     return 1

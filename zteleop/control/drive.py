@@ -112,6 +112,7 @@ class Drive:
         self.gate.restart(epoch, now)
         self.mux.clear()
         self._foreign.clear()
+        self._gone = None
         self._since = self._stepped = now
 
     def hold(self, reason: str, state: State, why: str, now: float) -> None:
@@ -185,7 +186,8 @@ class Drive:
         newest = max(self.mux.claims, key=lambda claim: claim.at, default=None)
         if newest is None:
             return ("link lost", f"{self._gone[0]} is gone") if self._gone else ("idle", "nobody drives")
-        if self.mux.idle(newest, now):
+        fell_silent = newest.at + self._sources[newest.source].silence
+        if self.mux.idle(newest, min(now, fell_silent)):  # which deadline was the first to pass
             return "operator idle", f"no act on {newest.source} for {now - newest.acted:.1f} s"
         return "link lost", f"{newest.source} has been silent for {now - newest.at:.1f} s"
 

@@ -72,11 +72,11 @@ def _limiter(drive: Drive, step: Step) -> str:
 def _bounds(drive: Drive, claim: Claim, asked: Twist, applied: Twist) -> Iterator[str]:
     """Yield what bounds a claim."""
     mixer, limits = drive.settings.mixer, drive.settings.limits
-    cap = drive.settings.known_sources[claim.source].max_speed
-    speed = min(bound for bound in (cap, limits.speed, mixer.max_speed) if bound)
+    speed = limits.speed_of(mixer, drive.settings.known_sources[claim.source].max_speed)
     if abs(asked.linear.x) > speed + _LEAST:
         yield f"{claim.source} may drive {speed:g} m/s here"
-    if abs(applied.linear.x) < min(abs(asked.linear.x), speed) - _LEAST:
+    best = mixer.unmix(mixer.mix(asked))
+    if abs(applied.linear.x) < min(abs(best.linear.x), speed) - _LEAST:
         yield f"speed changes by {limits.acceleration:g} m/s^2"
     if limits.pulse_duty < 1:
         yield f"the throttle is obeyed {limits.pulse_duty:.0%} of the time"

@@ -62,7 +62,7 @@ class Gate:
 
     def restart(self, epoch: int, now: float) -> None:
         """Forget every sender; what began before now is over."""
-        self.epoch, self._floor = epoch, now - self._grace
+        self.epoch, self._floor, self._forgotten = epoch, now - self._grace, NEVER
         self._senders.clear()
 
     def begin_after(self, now: float) -> None:
@@ -89,7 +89,7 @@ class Gate:
 
     def _remember(self, proof: Proof, seen: Seen | None, moving: bool, now: float) -> float:
         """Note a live command; return the time after which its claim must have begun."""
-        floor = seen.floor if seen else NEVER
+        floor = seen.floor if seen else self._forgotten
         heard = seen.at if seen and seen.moving else NEVER
         loss = self._deadlines.link_loss + self._grace
         if moving and now - max(heard, proof.began) > loss:  # it may have begun while nothing was heard
@@ -99,5 +99,5 @@ class Gate:
         self._senders[proof.sender] = Seen(proof.seq, proof.beat, now, moving, floor)
         self._senders.move_to_end(proof.sender)
         if len(self._senders) > SENDERS:
-            self._floor = max(self._floor, self._senders.popitem(last=False)[1].at - self._grace)
+            self._forgotten = self._senders.popitem(last=False)[1].at - self._grace
         return max(floor, self._floor)

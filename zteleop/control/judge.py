@@ -24,7 +24,9 @@ class Claims(Mux):
 
     def offer(self, claim: Claim) -> bool:
         """Take every claim."""
-        self._claims[f"{claim.source} {claim.sender}"] = claim
+        name = f"{claim.source} {claim.sender}"
+        self._claims.pop(name, None)  # the newest last, so that whoever drives is not the first forgotten
+        self._claims[name] = claim
         if len(self._claims) > SENDERS:
             del self._claims[next(iter(self._claims))]
         return True
@@ -49,6 +51,7 @@ class Judge:
         self.neutral_us = self._drive.calibration.neutral_us
         self._tick_us = tick_us
         self._epoch = -1
+        self._stopped: float | None = None
         self._bad_looks = 0
         self.moving = False
 
@@ -60,22 +63,32 @@ class Judge:
 
     def receive(self, source: str, command: Twist | Pwm, proof: Proof | None, now: float) -> Refusal | None:
         """Judge a command that the watchdog heard itself."""
-        return self._drive.receive(source, command, proof, now)
+        refusal = self._drive.receive(source, command, proof, now)
+        if refusal is None and self.allowed(now):  # what moved before this was heard may have moved for it
+            self._bad_looks = 0
+        return refusal
 
     def rest(self, stopped: bool, now: float) -> None:
-        """Learn whether a stop is in force; after its release only what begins anew counts."""
-        if stopped:
-            self._drive.hold("stop", "stopped", "a stop is in force", now)
-        else:
-            self._drive.free("stop", now)
+        """Learn whether a stop is in force; after its release only what begins anew counts.
+
+        Commands are judged all the while: the first after a release may be heard before it.
+        """
+        if stopped and self._stopped is None:
+            self._stopped = now
+        elif not stopped and self._stopped is not None:
+            self._stopped = None
+            self._drive.gate.begin_after(now)
+        if self._must_rest(now):
+            self._drive.mux.clear()
 
     @property
     def stopped(self) -> bool:
-        return bool(self._drive.holds)
+        """Say whether a stop is in force, even if the actuator still has time to obey it."""
+        return self._stopped is not None
 
     def allowed(self, now: float) -> bool:
         """Say whether somebody may drive now."""
-        return not self._drive.holds and self._drive.mux.select(now) is not None
+        return not self._must_rest(now) and self._drive.mux.select(now) is not None
 
     def at_rest(self, pulse_us: Mapping[int, float | None]) -> bool:
         """Say whether these pulses are neutral, to half a tick, or none at all."""
@@ -91,8 +104,11 @@ class Judge:
         self._bad_looks = self._bad_looks + 1 if bad else 0
         if self._bad_looks < LOOKS:
             return None
-        step = self._drive.step(now)
-        return f"its pulses moved although {step.why}"
+        why = "a stop is in force" if self._must_rest(now) else self._drive.step(now).why
+        return f"its pulses moved although {why}"
+
+    def _must_rest(self, now: float) -> bool:
+        return self._stopped is not None and now - self._stopped > GRACE
 
 
 def _later(settings: DriveSettings) -> DriveSettings:

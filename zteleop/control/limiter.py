@@ -28,6 +28,14 @@ class Limits(Struct, frozen=True, forbid_unknown_fields=True):
     pulse_duty_period: Annotated[float, Meta(gt=0, le=10)] = 0.5
     """s"""
 
+    def speed_of(self, mixer: Mixer, cap: float | None = None) -> float:
+        """Return the highest speed, in m/s, of a vehicle, and of a source that is capped."""
+        return min(bound for bound in (cap, self.speed, mixer.max_speed) if bound)
+
+    def turn_of(self, mixer: Mixer) -> float:
+        """Return the highest yaw rate, in rad/s, of a vehicle."""
+        return min(self.turn or mixer.max_turn, mixer.max_turn)
+
 
 class TwistLimiter:
     """Follows the wanted twist no faster than the limits allow, on the same curve."""
@@ -35,8 +43,7 @@ class TwistLimiter:
     def __init__(self, limits: Limits, mixer: Mixer) -> None:
         self._limits = limits
         self._steers = isinstance(mixer, Ackermann)
-        self._speed = min(limits.speed or mixer.max_speed, mixer.max_speed)
-        self._turn = min(limits.turn or mixer.max_turn, mixer.max_turn)
+        self._speed, self._turn = limits.speed_of(mixer), limits.turn_of(mixer)
         self._last = (0.0, 0.0)
         self._then: float | None = None
 
@@ -100,7 +107,7 @@ class WheelLimiter:
 
     def cap(self, wheels: Wheels, max_speed: float | None) -> Wheels:
         """Bound a command that names pulses: to full range, and the driven wheels to a speed in m/s."""
-        speed = min(bound for bound in (max_speed, self._limits.speed, self._mixer.max_speed) if bound)
+        speed = self._limits.speed_of(self._mixer, max_speed)
         ends = {name: speed / self._mixer.max_speed if name in self._mixer.driven else 1.0 for name in wheels}
         return {name: max(-ends[name], min(ends[name], fraction)) for name, fraction in wheels.items()}
 

@@ -1,58 +1,18 @@
 """The whole line, without a clock, a network or a chip; `now` is what the test says."""
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from unit.control.robot import FORWARD, NEUTRAL, REST, TICK_US, Robot, moves
 
-from zteleop.control.drive import Drive, DriveSettings, Step
+from zteleop.control.drive import DriveSettings
 from zteleop.control.gate import Refusal
-from zteleop.control.limiter import Limits
 from zteleop.control.mixer import Differential
 from zteleop.control.mux import Source
 from zteleop.control.proof import Prover
 from zteleop.control.report import status
 from zteleop.control.servo import Servo
-from zteleop.messages import Beat, Pwm, Twist
-
-TICK_US = 4.08
-NEUTRAL = {0: 1509.6, 1: 1530.0}
-FORWARD = Twist.planar(0.5)
-
-
-class Robot:
-    """A drive and the senders around it, on one clock."""
-
-    def __init__(self, drive_settings: DriveSettings | None = None) -> None:
-        self.now, self.epoch = 100.0, 1
-        self.drive = Drive(drive_settings or DriveSettings(), TICK_US, self.epoch, self.now)
-        self.now += 0.02
-        self.provers = {name: Prover(number) for number, name in enumerate("abc", 1)}
-
-    def wait(self, seconds: float) -> Step:
-        for _ in range(round(seconds * 50)):
-            self.now += 0.02
-            step = self.drive.step(self.now)
-        return step
-
-    def say(
-        self, command: Twist | Pwm, sender: str = "a", source: str = "keyboard", act: bool = True
-    ) -> Refusal | None:
-        prover, beat = self.provers[sender], Beat(self.epoch, self.now)
-        if act:
-            prover.act(beat)
-        moving = command not in (Twist.planar(), Pwm(375, 370))
-        return self.drive.receive(source, command, prover.prove(beat, moving, self.now), self.now)
-
-    def hold(self, command: Twist | Pwm, seconds: float, act: bool = True) -> Step:
-        for _ in range(round(seconds * 20)):
-            self.say(command, act=act)
-            step = self.wait(0.06)
-        return step
-
-
-def moves(step: Step) -> bool:
-    return step.pulse_us != NEUTRAL
-
+from zteleop.messages import Pwm, Twist
 
 def test_at_rest_every_channel_is_neutral() -> None:
     step = Robot().wait(0.1)
@@ -100,7 +60,7 @@ def test_after_a_long_silence_only_a_new_act_from_neutral_drives() -> None:
     robot.wait(2.5)
     assert not moves(robot.hold(FORWARD, 0.5))
     assert "let go first" in robot.drive.step(robot.now).why
-    robot.say(Twist.planar())
+    robot.say(REST)
     assert moves(robot.hold(FORWARD, 0.2))
 
 
@@ -116,7 +76,7 @@ def test_an_idle_operator_brings_neutral_and_the_next_act_drives_again() -> None
 def test_letting_go_is_neutral_at_once() -> None:
     robot = Robot()
     robot.hold(FORWARD, 0.5)
-    robot.say(Twist.planar())
+    robot.say(REST)
     step = robot.drive.step(robot.now)
     assert (step.state, moves(step)) == ("idle", False)
 
@@ -137,13 +97,15 @@ def test_a_restart_forgets_a_held_key_until_it_is_let_go() -> None:
     robot.epoch = 2
     robot.drive.restart(2, robot.now)
     assert not moves(robot.hold(FORWARD, 1.0))
-    robot.say(Twist.planar())
+    robot.say(REST)
     assert moves(robot.hold(FORWARD, 0.2))
 
 
 def test_a_sender_without_proof_is_refused_unless_trusted_by_arrival() -> None:
     robot = Robot(DriveSettings(sources={"nav": Source(10, silence=0.5, trust="arrival", max_speed=0.3)}))
     assert robot.drive.receive("keyboard", FORWARD, None, robot.now) is Refusal.UNPROVEN
+    assert robot.drive.receive("nav", FORWARD, None, robot.now) is Refusal.NOT_FROM_NEUTRAL
+    robot.wait(0.6)
     for _ in range(20):
         assert robot.drive.receive("nav", FORWARD, None, robot.now) is None
         step = robot.wait(0.06)
@@ -155,17 +117,6 @@ def test_a_tank_takes_twists_and_refuses_ticks() -> None:
     robot = Robot(DriveSettings(mixer=Differential(), servos=servos))
     assert robot.say(Pwm(390, 400)) is Refusal.NO_SUCH_CHANNEL
     assert robot.say(FORWARD) is None
-
-
-def test_status_tells_who_what_and_why() -> None:
-    robot = Robot()
-    step = robot.hold(Twist.planar(0.5, 0.5), 1.0)
-    said = status(robot.drive, step, written=3.0)
-    assert (said.state, said.source, said.operator, said.written) == ("driving", "keyboard", "1", 3.0)
-    assert said.wanted == Twist.planar(0.5, 0.5)
-    assert said.applied.linear.x == pytest.approx(0.5)
-    assert said.applied.angular.z == pytest.approx(0.5)
-    assert [pulse.name for pulse in said.pulses] == ["throttle", "steering"]
 
 
 @pytest.mark.parametrize(
@@ -197,52 +148,140 @@ def test_no_twist_leaves_the_calibration(twists: list[tuple[float, float]]) -> N
         assert all(abs(pulse.fraction) <= 1 for pulse in status(robot.drive, step, robot.now).pulses)
 
 
-ACTS = st.one_of(
-    st.tuples(st.just("say"), st.sampled_from("abc"), st.sampled_from(["keyboard", "web"]), st.booleans()),
-    st.tuples(st.just("let go"), st.sampled_from("abc")),
-    st.tuples(st.just("wait"), st.sampled_from([0.02, 0.1, 0.29, 0.31, 1.0, 2.1, 5.1])),
-    st.tuples(st.just("delay"), st.sampled_from([0.0, 0.05, 0.2, 0.31, 3.0])),
-    st.tuples(st.just("replay")),
-    st.tuples(st.just("restart")),
-)
+def test_a_stop_is_neutral_at_once_whoever_drives() -> None:
+    robot = Robot()
+    robot.hold(FORWARD, 0.5)
+    assert robot.stop(7)
+    step = robot.step()
+    assert (step.state, moves(step)) == ("stopped", False)
+    assert "stopped by ann" in step.why
+    assert robot.say(FORWARD) is Refusal.AT_REST
 
 
-@settings(max_examples=300, deadline=None)
-@given(st.lists(ACTS, max_size=40))
-def test_no_motion_without_a_fresh_acting_claim(acts: list[tuple]) -> None:
-    """Whatever is delayed, replayed or restarted: who moves the robot has just acted, since its start."""
-    robot, queue, started = Robot(DriveSettings(limits=Limits(acceleration=1000))), [], 100.0
-    made: list[tuple[float, float]] = []  # when a moving command was made, and its operator acted
-    acted = dict.fromkeys("abc", float("-inf"))
-    delay = 0.0
-    for act in acts:
-        kind = act[0]
-        if kind == "say":
-            _, sender, source, fresh = act
-            prover, beat = robot.provers[sender], Beat(robot.epoch, robot.now)
-            if fresh:
-                prover.act(beat)
-                acted[sender] = robot.now
-            made.append((robot.now, acted[sender]))
-            queue.append((robot.now + delay, source, FORWARD, prover.prove(beat, True, robot.now)))
-        elif kind == "let go":
-            prover, beat = robot.provers[act[1]], Beat(robot.epoch, robot.now)
-            queue.append((robot.now, "keyboard", Twist.planar(), prover.prove(beat, False, robot.now)))
-        elif kind == "wait":
-            robot.now += act[1]
-        elif kind == "delay":
-            delay = act[1]
-        elif kind == "replay":
-            queue += [(robot.now, *rest) for _, *rest in queue[-3:]]
-        elif kind == "restart":
-            robot.epoch += 1
-            started = robot.now
-            robot.drive.restart(robot.epoch, robot.now)
-        for item in [item for item in queue if item[0] <= robot.now]:
-            robot.drive.receive(item[1], item[2], item[3], robot.now)
-        queue = [item for item in queue if item[0] > robot.now or kind == "say"]
-        if moves(robot.drive.step(robot.now)):
-            assert any(
-                robot.now - at <= 0.3 + 0.3 and robot.now - when <= 5.0 and when > started
-                for at, when in made
-            )
+def rested(robot: Robot, state: str, on: bool) -> None:
+    """Keep a robot at rest for a reason of this state, or no longer."""
+    if state == "stopped":
+        (robot.stop if on else robot.release)(7)
+    elif on:
+        robot.drive.hold("reason", state, "because", robot.now)
+    else:
+        robot.drive.free("reason", robot.now)
+
+
+@pytest.mark.parametrize("state", ["stopped", "fault", "starting"])
+def test_a_key_held_through_a_rest_moves_nothing_until_it_is_let_go_and_pressed_again(state: str) -> None:
+    robot = Robot()
+    robot.hold(FORWARD, 0.2)
+    rested(robot, state, on=True)
+    step = robot.hold(FORWARD, 0.5)
+    assert (step.state, moves(step)) == (state, False)
+    rested(robot, state, on=False)
+    assert not moves(robot.step())
+    assert not moves(robot.hold(FORWARD, 1.0))
+    assert robot.say(FORWARD) is Refusal.NOT_FROM_NEUTRAL
+    robot.say(REST)
+    robot.wait(0.02)
+    assert moves(robot.hold(FORWARD, 0.2))
+
+
+def test_a_key_pressed_while_at_rest_moves_nothing_afterwards() -> None:
+    robot = Robot()
+    robot.drive.hold("chip", "fault", "", robot.now)
+    robot.say(FORWARD)
+    robot.wait(0.04)
+    robot.drive.free("chip", robot.now)
+    assert not moves(robot.hold(FORWARD, 0.5))
+
+
+def test_the_robot_is_free_when_every_reason_is_gone() -> None:
+    robot = Robot()
+    robot.drive.hold("esc", "starting", "the ESC arms", robot.now)
+    assert robot.step().state == "starting"
+    robot.drive.hold("chip", "fault", "the chip is silent", robot.now)
+    assert (robot.step().state, robot.step().why) == ("fault", "the chip is silent")
+    robot.stop(7)
+    assert robot.step().state == "stopped"
+    robot.drive.free("chip", robot.now)
+    assert robot.step().state == "stopped"
+    robot.release(7)
+    assert (robot.step().state, robot.step().why) == ("starting", "the ESC arms")
+    robot.drive.free("esc", robot.now)
+    assert robot.step().state == "idle"
+    robot.wait(0.02)
+    assert moves(robot.hold(FORWARD, 0.2))
+
+
+def test_freeing_what_was_not_held_disturbs_nobody() -> None:
+    robot = Robot()
+    robot.hold(FORWARD, 0.2)
+    robot.drive.free("chip", robot.now)
+    assert not robot.release(7)
+    assert moves(robot.hold(FORWARD, 0.2))
+
+
+def test_an_old_stop_that_is_heard_again_stops_nobody() -> None:
+    robot = Robot()
+    robot.stop(7)
+    robot.release(7)
+    robot.wait(0.02)
+    robot.hold(FORWARD, 0.2)
+    assert not robot.stop(7)
+    assert moves(robot.step())
+
+
+def test_a_sender_whose_process_is_gone_lets_go_at_once() -> None:
+    robot = Robot()
+    robot.hold(FORWARD, 0.2)
+    robot.drive.withdraw(1, robot.now)
+    step = robot.step()
+    assert (step.state, step.why, moves(step)) == ("link lost", "keyboard is gone", False)
+    assert robot.say(FORWARD, "b") is None  # and somebody else may take over
+    robot.wait(0.4)
+    assert moves(robot.hold(FORWARD, 0.2))  # or it is heard again
+
+
+def test_the_departure_of_somebody_else_changes_nothing() -> None:
+    robot = Robot()
+    robot.hold(FORWARD, 0.2)
+    robot.drive.withdraw(2, robot.now)
+    assert moves(robot.step())
+
+
+def test_a_link_that_was_lost_stays_lost_though_nobody_can_act() -> None:
+    robot = Robot()
+    robot.hold(FORWARD, 0.2)
+    assert robot.wait(6.0).state == "link lost"
+
+
+def test_refusals_are_counted_by_source_while_their_reason_lasts() -> None:
+    robot = Robot()
+    first = robot.now
+    for _ in range(3):
+        robot.drive.receive("web", FORWARD, None, robot.now)
+        robot.wait(0.1)
+    refused = robot.drive.refusals["web"]
+    assert (refused.why, refused.times, refused.since) == (Refusal.UNPROVEN, 3, first)
+    assert refused.at == pytest.approx(first + 0.2)
+    robot.stop(7)
+    robot.say(FORWARD, source="web")
+    assert robot.drive.refusals["web"] == (Refusal.AT_REST, robot.now, robot.now, 1)
+    assert (robot.drive.refused, set(robot.drive.refusals)) == (4, {"web"})
+
+
+def test_the_reason_of_a_refusal_is_told_for_a_second() -> None:
+    robot = Robot()
+    robot.drive.receive("web", FORWARD, None, robot.now)
+    assert "web is refused: it carries no proof" in robot.wait(0.9).why
+    assert robot.wait(0.2).why == "nobody drives"
+
+
+def test_a_foreign_sender_does_not_drive_on_when_the_robot_was_stopped_for_a_while() -> None:
+    robot = Robot(DriveSettings(sources={"nav": Source(10, silence=0.5, trust="arrival")}))
+    robot.wait(0.6)
+    assert robot.drive.receive("nav", FORWARD, None, robot.now) is None
+    robot.now += 3.0
+    robot.drive.restart(2, robot.now)
+    assert robot.drive.receive("nav", FORWARD, None, robot.now) is Refusal.NOT_FROM_NEUTRAL
+    assert robot.drive.receive("nav", REST, None, robot.now) is None
+    robot.wait(0.02)
+    assert robot.drive.receive("nav", FORWARD, None, robot.now) is None

@@ -66,6 +66,39 @@ def test_letting_go_before_a_silence_is_no_loss(gate: Gate) -> None:
     assert gate.judge(proof(109.0, seq=2), True, 109.0) is None
 
 
+def test_a_claim_that_was_not_heard_for_long_needs_a_new_act_from_neutral(gate: Gate) -> None:
+    """It was pressed when the link was already lost, and is held when the link comes back."""
+    assert gate.judge(proof(101.0, seq=1), False, 101.0) is None
+    assert gate.judge(proof(103.9, seq=2, began=101.5), True, 103.9) is Refusal.NOT_FROM_NEUTRAL
+    assert gate.judge(proof(104.0, seq=3, began=101.5), True, 104.0) is Refusal.NOT_FROM_NEUTRAL
+    assert gate.judge(proof(104.1, seq=4, began=104.1), True, 104.1) is None
+    assert gate.judge(proof(104.0, sender=2, began=101.5), True, 104.0) is Refusal.NOT_FROM_NEUTRAL
+    assert gate.judge(proof(104.0, sender=3, began=102.5), True, 104.0) is None
+
+
+def test_of_a_lost_link_the_first_two_seconds_are_no_beginning(gate: Gate) -> None:
+    assert gate.judge(proof(101.0, seq=1), True, 101.0) is None
+    assert gate.judge(proof(104.0, seq=2, began=102.9), True, 104.0) is Refusal.NOT_FROM_NEUTRAL
+    assert gate.judge(proof(104.1, seq=3, began=103.1), True, 104.1) is None
+
+
+def test_only_what_begins_after_a_rest_counts(gate: Gate) -> None:
+    gate.begin_after(102.0)
+    gate.begin_after(101.5)
+    assert gate.judge(proof(102.1, began=102.0), True, 102.1) is Refusal.NOT_FROM_NEUTRAL
+    assert gate.judge(proof(102.2, seq=2, began=102.1), True, 102.2) is None
+
+
+def test_a_second_opinion_is_never_the_stricter_one() -> None:
+    gate = Gate(Deadlines(), EPOCH, 100.0, grace=0.25)
+    assert gate.judge(proof(100.1, began=99.8), True, 100.1) is None
+    gate.begin_after(101.0)
+    assert gate.judge(proof(101.1, seq=2, began=100.8), True, 101.1) is None
+    assert gate.judge(proof(103.3, seq=3, began=100.8), True, 103.3) is None
+    assert gate.judge(proof(105.6, seq=4, began=103.4), True, 105.6) is None
+    assert gate.judge(proof(108.0, seq=5, began=103.4), True, 108.0) is Refusal.NOT_FROM_NEUTRAL
+
+
 def test_a_restart_refuses_all_that_was_before(gate: Gate) -> None:
     assert gate.judge(proof(101.0), True, 101.0) is None
     gate.restart(6, 102.0)
@@ -89,3 +122,11 @@ def test_memory_is_bounded_and_the_forgotten_must_let_go(gate: Gate) -> None:
         assert gate.judge(proof(now, sender=sender), True, now) is None
     assert len(gate._senders) == SENDERS
     assert gate.judge(proof(101.2, seq=10, began=101.0), True, 101.2) is Refusal.NOT_FROM_NEUTRAL
+
+
+def test_however_many_come_and_go_whoever_is_remembered_drives_on(gate: Gate) -> None:
+    assert gate.judge(proof(101.0), True, 101.0) is None
+    for sender in range(2, 3 * SENDERS):
+        now = 101.0 + sender / 100
+        assert gate.judge(proof(now, sender=sender), True, now) is None
+        assert gate.judge(proof(now, seq=sender, began=101.0), True, now) is None

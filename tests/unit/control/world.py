@@ -170,7 +170,8 @@ class World:
         self.alarm: str | None = None
         self._identity = self._count = 0
         self._stepped = self._looked = self._polled = self.now
-        self._nav_due, self._foreign = NEVER, (NEVER, False, NEVER)
+        self._due: dict[int, float] = {}
+        self._foreign = (self.now, True, NEVER)
         self.boot()
         self.senders = [self._sender(source) for source in SENDERS]
 
@@ -181,7 +182,8 @@ class World:
         self.judge = Judge(SETTINGS, TICK_US, self.now)
         self.truth = Truth(self.epoch, self.now)
         self.ear.clear()
-        self._looked = self._polled = self._nav_due = self.now
+        self._due.clear()
+        self._looked = self._polled = self.now
         self.start_actuator()
 
     def start_actuator(self) -> None:
@@ -251,9 +253,8 @@ class World:
         if self.drive.receive(told.source, told.command, told.proof, self.now):
             self.refused += 1
         self._count += 1
-        due = self.now + self.random.random() * JUDGE_HEARS
-        if told.source == "nav":  # nothing but their order tells its commands apart
-            due = self._nav_due = max(due, self._nav_due)
+        due = max(self.now + self.random.random() * JUDGE_HEARS, self._due.get(told.sender, NEVER))
+        self._due[told.sender] = due  # what one sender says stays in order
         heappush(self.ear, (due, self._count, told))
 
     def _found(self, told: Told) -> Told:

@@ -1,0 +1,47 @@
+import pytest
+
+from zteleop.control.command import to_command
+from zteleop.errors import MessageError
+from zteleop.messages import (
+    Header,
+    Int16MultiArray,
+    Message,
+    MultiArrayLayout,
+    Pwm,
+    String,
+    Twist,
+    TwistStamped,
+)
+
+FORWARD = Twist.planar(0.5)
+
+
+def ticks(*data: int) -> Int16MultiArray:
+    return Int16MultiArray(MultiArrayLayout.zero(), list(data))
+
+
+@pytest.mark.parametrize(
+    ("message", "command"),
+    [
+        (FORWARD, FORWARD),
+        (TwistStamped(Header.zero(), FORWARD), FORWARD),
+        (Pwm(390, 400), Pwm(390, 400)),
+        (ticks(390, 400), Pwm(390, 400)),
+        (ticks(390, 400, 99), Pwm(390, 400)),
+    ],
+)
+def test_each_type_of_command_is_a_twist_or_pulses(message: Message, command: Twist | Pwm) -> None:
+    assert to_command(message) == command
+
+
+@pytest.mark.parametrize(
+    ("message", "words"),
+    [
+        (ticks(), r"expected \[steering, throttle\], found \[\]"),
+        (ticks(390), r"expected \[steering, throttle\], found \[390\]"),
+        (String("go"), "a String commands nothing"),
+    ],
+)
+def test_what_commands_nothing_is_refused_in_words(message: Message, words: str) -> None:
+    with pytest.raises(MessageError, match=words):
+        to_command(message)

@@ -1,0 +1,158 @@
+"""Every layer's sentence, as a person would read it."""
+
+import re
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from unit.control.robot import FORWARD, REST, Robot
+
+from zteleop.control.drive import DriveSettings
+from zteleop.control.explain import layers
+from zteleop.control.limiter import Limits
+from zteleop.control.mixer import Differential
+from zteleop.control.mux import Source
+from zteleop.control.servo import Servo
+from zteleop.messages import Pwm, Twist
+
+TANK = DriveSettings(mixer=Differential(), servos={"left": Servo(channel=0), "right": Servo(channel=1)})
+
+
+def says(robot: Robot) -> dict[str, str]:
+    return {layer.name: layer.says for layer in layers(robot.drive, robot.step(), robot.now)}
+
+
+def test_at_rest_every_layer_says_so_from_the_operator_to_the_wheels() -> None:
+    assert list(says(Robot()).items()) == [
+        ("operator", "nobody operates"),
+        ("mux", "no claim counts"),
+        ("gate", "refuses nobody"),
+        ("rest", "idle: nobody drives"),
+        ("limiter", "nothing to limit"),
+        ("wheels", "throttle 1510 us = 370 ticks, steering 1530 us = 375 ticks"),
+    ]
+
+
+def test_a_twist_that_passes_as_asked() -> None:
+    robot = Robot()
+    robot.hold(Twist.planar(0.5, 0.25), 0.5)
+    said = says(robot)
+    assert said["operator"] == "keyboard 0001 operates, acted 0.1 s ago and asks for +0.50 m/s +0.25 rad/s"
+    assert said["mux"] == "keyboard drives with priority 90"
+    assert said["rest"] == "free to move"
+    assert said["limiter"] == "passes it on as asked"
+    assert re.fullmatch(r"throttle 1598 us = 392 ticks, steering \d+ us = \d+ ticks", said["wheels"])
+
+
+def test_ticks_are_told_as_ticks() -> None:
+    robot = Robot()
+    robot.hold(Pwm(390, 400), 0.5)
+    said = says(robot)
+    assert said["operator"].endswith("asks for steering 390, throttle 400 ticks")
+    assert said["wheels"] == "throttle 1632 us = 400 ticks, steering 1591 us = 390 ticks"
+    assert said["limiter"] == "passes it on as asked"
+
+
+@pytest.mark.parametrize("command", [Twist.planar(2.0), Pwm(375, 480)])
+def test_what_still_accelerates_names_the_acceleration(command: Twist | Pwm) -> None:
+    robot = Robot()
+    robot.hold(command, 0.1)
+    assert re.fullmatch(
+        r"makes it \+0\.\d\d m/s \+0\.00 rad/s: speed changes by 3 m/s\^2", says(robot)["limiter"]
+    )
+
+
+def test_a_source_that_may_not_drive_so_fast_names_its_cap() -> None:
+    robot = Robot(DriveSettings(sources={"nav": Source(10, max_speed=0.4)}))
+    robot.hold(Twist.planar(2.0), 0.5, source="nav")
+    assert says(robot)["limiter"] == "makes it +0.40 m/s +0.00 rad/s: nav may drive 0.4 m/s here"
+
+
+def test_a_throttle_obeyed_for_a_share_of_the_time_says_so() -> None:
+    robot = Robot(DriveSettings(limits=Limits(pulse_duty=0.5, pulse_duty_period=0.5)))
+    robot.hold(FORWARD, 0.5)
+    while robot.now % 0.5 < 0.3:
+        robot.hold(FORWARD, 0.05)
+    assert "the throttle is obeyed 50% of the time" in says(robot)["limiter"]
+
+
+def test_wheels_at_their_lock_turn_no_tighter() -> None:
+    robot = Robot()
+    robot.hold(Twist.planar(0.5, 3.0), 0.5)
+    assert says(robot)["limiter"].endswith("it turns no tighter")
+
+
+def test_what_no_bound_explains_is_the_wheels_own() -> None:
+    robot = Robot(TANK)
+    robot.hold(Twist.planar(1.0, 5.0), 2.0)
+    assert says(robot)["limiter"].endswith(": the wheels can do no better")
+
+
+def test_refusals_are_told_with_how_often_and_since_when_and_then_forgotten() -> None:
+    robot = Robot()
+    for _ in range(3):
+        robot.drive.receive("web", FORWARD, None, robot.now)
+        robot.wait(0.5)
+    gate = says(robot)["gate"]
+    assert gate.startswith("refuses web: it carries no proof; ")
+    assert gate.endswith(" (3 times in 1.5 s, last 0.5 s ago)")
+    robot.wait(10.0)
+    assert says(robot)["gate"] == "refuses nobody"
+
+
+def test_a_reason_to_rest_is_told_with_its_age() -> None:
+    robot = Robot()
+    robot.drive.hold("chip", "fault", "the chip is silent", robot.now)
+    robot.wait(2.0)
+    assert says(robot)["rest"] == "fault for 2.0 s: the chip is silent"
+    robot.stop(7)
+    assert says(robot)["rest"].startswith("stopped for 0.0 s: stopped by ann")
+
+
+def test_who_waits_behind_the_one_who_drives_is_named() -> None:
+    robot = Robot()
+    robot.say(FORWARD, "a", "keyboard")
+    robot.say(FORWARD, "b", "program")
+    robot.say(FORWARD, "c", "web")
+    assert says(robot)["mux"] == "web drives with priority 100; keyboard 0001, program 0002 waits"
+    robot.wait(0.4)
+    assert says(robot)["mux"] == "program drives with priority 50"
+
+
+def test_after_letting_go_and_after_a_silence_the_reason_is_told() -> None:
+    robot = Robot()
+    robot.hold(FORWARD, 0.2)
+    robot.wait(0.4)
+    assert says(robot)["rest"].startswith("link lost: keyboard has been silent for 0.")
+    robot.say(REST)
+    assert says(robot)["rest"] == "idle: nobody drives"
+
+
+numbers = st.one_of(
+    st.floats(allow_nan=False, allow_infinity=False),
+    st.sampled_from([0.0, -0.0, 5e-324, 1e-310, 1.7e308, -1.7e308]),
+)
+int16 = st.integers(-(2**15), 2**15 - 1)
+commands = st.one_of(st.builds(Twist.planar, numbers, numbers), st.builds(Pwm, int16, int16))
+
+
+@given(st.lists(commands, min_size=1, max_size=3), st.booleans())
+def test_any_command_is_explained_in_finite_numbers(wanted: list[Twist | Pwm], tank: bool) -> None:
+    robot = Robot(TANK if tank else None)
+    for command in wanted:
+        robot.say(command)
+        robot.wait(0.04)
+        for text in says(robot).values():
+            assert text
+            assert not re.search(r"\b(nan|inf)\b", text), text
+
+
+@given(commands)
+def test_explaining_changes_nothing(command: Twist | Pwm) -> None:
+    one, other = Robot(), Robot()
+    for robot in (one, other):
+        robot.say(command)
+        robot.wait(0.04)
+    layers(one.drive, one.step(), one.now)
+    other.step()
+    assert one.wait(0.04) == other.wait(0.04)

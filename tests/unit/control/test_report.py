@@ -1,0 +1,54 @@
+import pytest
+from unit.control.robot import FORWARD, TICK_US, Robot
+
+from zteleop.control.drive import DriveSettings
+from zteleop.control.limiter import Limits
+from zteleop.control.mixer import Differential
+from zteleop.control.report import describe, status
+from zteleop.control.servo import Servo
+from zteleop.messages import Pwm, Twist
+
+
+def test_status_tells_who_what_and_why() -> None:
+    robot = Robot()
+    step = robot.hold(Twist.planar(0.5, 0.5), 1.0)
+    said = status(robot.drive, step, written=3.0)
+    assert (said.state, said.source, said.operator, said.written) == ("driving", "keyboard", "1", 3.0)
+    assert (said.seq, said.refused, said.clamped) == (20, 0, 0)
+    assert said.wanted == Twist.planar(0.5, 0.5)
+    assert said.applied.linear.x == pytest.approx(0.5)
+    assert said.applied.angular.z == pytest.approx(0.5)
+    assert [pulse.name for pulse in said.pulses] == ["throttle", "steering"]
+
+
+def test_at_rest_nobody_is_told_of() -> None:
+    robot = Robot()
+    said = status(robot.drive, robot.step(), written=3.0)
+    assert (said.state, said.source, said.operator, said.seq, said.stop) == ("idle", "", "", 0, 0)
+    assert said.wanted == said.applied == Twist.planar()
+
+
+def test_ticks_are_told_as_the_twist_they_ask_for() -> None:
+    robot = Robot()
+    said = status(robot.drive, robot.hold(Pwm(375, 500), 1.2), written=3.0)
+    assert said.wanted.linear.x == pytest.approx(3.0, abs=0.05)
+
+
+def test_status_names_the_stop_in_force_so_that_it_can_be_released() -> None:
+    robot = Robot()
+    robot.hold(FORWARD, 0.2)
+    robot.stop(41)
+    robot.stop(42)
+    said = status(robot.drive, robot.step(), written=3.0)
+    assert (said.state, said.stop) == ("stopped", 42)
+    assert robot.release(said.stop)
+    assert status(robot.drive, robot.step(), written=3.0).stop == 0
+
+
+def test_a_vehicle_is_described_within_its_limits() -> None:
+    car = describe(DriveSettings(limits=Limits(speed=1.0, turn=2.0)), TICK_US, ready=False)
+    assert (car.kind, car.max_speed, car.max_turn, car.ready) == ("ackermann", 1.0, 2.0, False)
+    assert [(c.name, c.neutral_ticks) for c in car.channels] == [("throttle", 370), ("steering", 375)]
+    servos = {"left": Servo(channel=0), "right": Servo(channel=1)}
+    tank = describe(DriveSettings(mixer=Differential(), servos=servos), TICK_US)
+    assert (tank.kind, tank.max_turn, tank.ready) == ("differential", pytest.approx(10.0), True)

@@ -1,0 +1,273 @@
+"""The seven states: a table of every transition, a long random walk, any acts at all, and defects on purpose.
+
+What is asserted of any sequence of commands, acts, stops, silences, delays and restarts: no motion
+without a fresh acting claim, and no motion after a stop, a long link loss, a fault, an arming pause or
+a start until a claim that left neutral afterwards. `world.Truth` says what that is.
+"""
+
+from collections.abc import Callable
+from functools import partial
+from random import Random
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from unit.control.robot import FORWARD, REST, Robot, moves
+from unit.control.world import ACTS, Sabotage, World, walk
+
+from zteleop.control.drive import Drive, DriveSettings
+from zteleop.control.gate import Gate, Refusal
+from zteleop.control.limiter import Limits
+from zteleop.control.proof import NEVER, Proof
+from zteleop.messages import State, Stop
+
+# A table of every state and what each event makes of it.
+
+
+def press(robot: Robot) -> None:
+    robot.say(REST)
+    robot.wait(0.02)
+    robot.say(FORWARD)
+
+
+def fall_silent(robot: Robot) -> None:
+    robot.wait(0.4)
+
+
+def act_no_more(robot: Robot) -> None:
+    robot.hold(FORWARD, 5.2, act=False)
+
+
+def pause(robot: Robot) -> None:
+    """Stop the robot's own process for a while."""
+    robot.now += 0.5
+    assert robot.drive.late(robot.now)
+    robot.epoch += 1
+    robot.drive.restart(robot.epoch, robot.now)
+
+
+def hold(state: State, robot: Robot) -> None:
+    robot.drive.hold(state, state, f"{state} for a reason", robot.now)
+
+
+def free(state: State, robot: Robot) -> None:
+    robot.drive.free(state, robot.now)
+
+
+EVENTS: dict[str, Callable[[Robot], object]] = {
+    "press": press,
+    "say again": lambda robot: robot.say(FORWARD, act=False),
+    "let go": lambda robot: robot.say(REST),
+    "silence": fall_silent,
+    "act no more": act_no_more,
+    "depart": lambda robot: robot.drive.withdraw(1, robot.now),
+    "stop": lambda robot: robot.stop(7),
+    "release": lambda robot: robot.release(7),
+    "release another": lambda robot: robot.release(8),
+    "fail": partial(hold, "fault"),
+    "recover": partial(free, "fault"),
+    "arm": partial(hold, "starting"),
+    "armed": partial(free, "starting"),
+    "pause": pause,
+}
+REACHED: dict[State, list[str]] = {
+    "idle": [],
+    "driving": ["press"],
+    "link lost": ["press", "silence"],
+    "operator idle": ["press", "act no more"],
+    "starting": ["press", "arm"],
+    "fault": ["press", "fail"],
+    "stopped": ["press", "stop"],
+}
+STATES: tuple[State, ...] = tuple(REACHED)
+SAME = dict.fromkeys(EVENTS)
+CALLED: dict[str, State] = {"stop": "stopped", "fail": "fault", "arm": "starting", "pause": "idle"}
+TABLE: dict[State, dict[str, State | None]] = {
+    "idle": SAME | CALLED | {"press": "driving", "say again": None, "act no more": "link lost"},
+    "driving": SAME
+    | CALLED
+    | {"let go": "idle", "silence": "link lost", "act no more": "operator idle", "depart": "link lost"},
+    "link lost": SAME
+    | CALLED
+    | {"press": "driving", "say again": "driving", "let go": "idle", "act no more": "operator idle"},
+    "operator idle": SAME | CALLED | {"press": "driving", "let go": "idle", "depart": "link lost"},
+    "starting": SAME | CALLED | {"armed": "idle", "pause": None},
+    "fault": SAME | CALLED | {"recover": "idle", "arm": None, "pause": None},
+    "stopped": SAME | {"release": "idle"},
+}
+"""What follows on each event; None is no change."""
+del TABLE["idle"]["act no more"]  # a key that was never pressed cannot be held
+
+
+@pytest.mark.parametrize(("state", "event"), [(state, event) for state in STATES for event in TABLE[state]])
+def test_every_transition(state: State, event: str) -> None:
+    robot = Robot(DriveSettings(limits=Limits(acceleration=1000.0)))
+    for name in REACHED[state]:
+        EVENTS[name](robot)
+        robot.wait(0.02)
+    assert robot.step().state == state
+    EVENTS[event](robot)
+    step = robot.wait(0.02)
+    assert step.state == (TABLE[state][event] or state)
+    assert moves(step) == (step.state == "driving")
+
+
+def test_every_state_is_entered_and_left_in_the_table() -> None:
+    entered = {after for row in TABLE.values() for after in row.values() if after}
+    left = {state for state, row in TABLE.items() if any(after not in (None, state) for after in row.values())}
+    assert entered == left == set(STATES) == set(State.__args__)
+
+
+@pytest.mark.parametrize("event", ["stop", "fail", "arm", "pause"])
+def test_after_what_brought_it_to_rest_only_a_new_press_drives(event: str) -> None:
+    robot = Robot()
+    robot.hold(FORWARD, 0.2)
+    EVENTS[event](robot)
+    robot.hold(FORWARD, 0.5)
+    for name in ("release", "recover", "armed"):
+        EVENTS[name](robot)
+    assert not moves(robot.hold(FORWARD, 1.0))
+    press(robot)
+    assert moves(robot.hold(FORWARD, 0.2))
+
+
+# Anything in any order.
+
+STEPS = 200_000
+VISITED_AT_LEAST = {"idle": 10_000, "operator idle": 100} | dict.fromkeys(
+    ("driving", "link lost", "stopped", "fault", "starting"), 5000
+)
+
+
+def test_a_long_walk_never_moves_what_may_not_move(record_property: Callable[[str, object], None]) -> None:
+    world = World(Random(1))
+    walk(world, STEPS)
+    for state, times in sorted(world.visited.items()):
+        record_property(state, times)
+    print(f"visited {world.visited}, moved {world.moved} times, refused {world.refused} commands")  # noqa: T201
+    assert (world.unsafe, world.alarm) == (None, None), list(world.trail)
+    assert {state for state in STATES if world.visited.get(state, 0) < VISITED_AT_LEAST[state]} == set()
+    assert world.moved > 20_000
+    assert world.pressed > 1000
+    assert world.obeyed == world.pressed, "a fresh press from neutral drives"
+
+
+acts = st.lists(
+    st.one_of([st.tuples(st.just(name), st.sampled_from(choices)) for name, (_, choices) in ACTS.items()]),
+    max_size=60,
+)
+
+
+@settings(max_examples=150, deadline=None)
+@given(acts, st.integers(0, 2**16))
+def test_no_acts_move_what_may_not_move(done: list[tuple[str, object]], seed: int) -> None:
+    world = World(Random(seed))
+    for name, argument in done:
+        world.do(name, argument)
+        assert (world.unsafe, world.alarm) == (None, None)
+
+
+# Defects on purpose: the walk would not be worth its time if it did not find them.
+
+
+def lenient(*refusals: Refusal, drive: Drive) -> None:
+    """Let pass what the gate refuses for these reasons."""
+    judge = drive.gate.judge
+
+    def pass_by(proof: Proof | None, moving: bool, now: float) -> Refusal | None:
+        refusal = judge(proof, moving, now)
+        return None if refusal in refusals else refusal
+
+    drive.gate.judge = pass_by
+
+
+def any_epoch(drive: Drive) -> None:
+    judge = drive.gate.judge
+    drive.gate.judge = lambda proof, moving, now: judge(
+        proof and proof._replace(epoch=drive.gate.epoch), moving, now
+    )
+
+
+def replays(drive: Drive) -> None:
+    judge = drive.gate.judge
+
+    def forget(proof: Proof | None, moving: bool, now: float) -> Refusal | None:
+        if proof and (seen := drive.gate._senders.get(proof.sender)):
+            seen.seq, seen.beat = -1, NEVER
+        return judge(proof, moving, now)
+
+    drive.gate.judge = forget
+
+
+def never_silent(drive: Drive) -> None:
+    drive.mux.silent = lambda claim, now: False
+
+
+def never_idle(drive: Drive) -> None:
+    drive.mux.idle = lambda claim, now: False
+
+
+def nobody_must_act(drive: Drive) -> None:
+    never_idle(drive)
+    lenient(Refusal.OPERATOR_IDLE, drive=drive)
+
+
+def free_without_a_floor(drive: Drive) -> None:
+    drive.gate.begin_after = lambda now: None
+
+
+def any_release(drive: Drive) -> None:
+    obey = drive.latch.obey
+
+    def forget(said: Stop) -> bool:
+        if said.engaged or drive.latch.stop is None:
+            return obey(said)
+        drive.latch.stop = None
+        return True
+
+    drive.latch.obey = forget
+
+
+def deaf_to_stops(drive: Drive) -> None:
+    drive.stop = lambda said, now: False
+
+
+def no_long_loss(drive: Drive) -> None:
+    deadlines = drive.gate._deadlines
+    drive.gate = Gate(deadlines, drive.gate.epoch, drive._since)
+    remember = drive.gate._remember
+
+    def forgive(proof: Proof, seen: object, moving: bool, now: float) -> float:
+        remember(proof, seen, moving, now)
+        drive.gate._senders[proof.sender].floor = NEVER
+        return drive.gate._floor
+
+    drive.gate._remember = forgive
+
+
+def never_late(drive: Drive) -> None:
+    drive.late = lambda now: False
+
+
+def claims_outlive_a_rest(drive: Drive) -> None:
+    drive.mux.clear = lambda: None
+
+
+def departures_unheard(drive: Drive) -> None:
+    drive.withdraw = lambda sender, now: None
+
+
+def foreign_at_once(drive: Drive) -> None:
+    meet = drive._meet
+
+    def meet_anew(source: str) -> object:
+        prover = meet(source)
+        prover._moving = False
+        return prover
+
+    drive._meet = meet_anew
+
+
+DEFECTS: dict[str, tuple[Sabotage, bool]] = {
+    "the gate ignores when a claim began": (partial(_lenient_began := lambda drive: lenient(Refusal.NOT_FROM_NEUTRAL, drive=drive)), True),
+}
