@@ -7,6 +7,7 @@ VERBS = {
     "demo": "drive a simulated car, all in one",
     "keyboard": "drive with the keys of this terminal",
     "actuator": "obey commands: turn them into pulses for servos and ESCs",
+    "stop": "stop a robot until it is released",
     "sim": "move a simulated vehicle by the pulses of a simulated chip",
     "list": "list the topics of every robot on the bus",
     "echo": "print what a topic says",

@@ -83,6 +83,7 @@ def painter(keyboard: Keyboard, robot: str, steps: Steps) -> Callable[[View], No
             trail=trail,
             idle_left=keyboard.idle_left(view.now),
             note=view.note,
+            alarm=view.alarm,
             steps=steps,
         )
         terminal.draw(render(dashboard, columns, rows, unicode=terminal.unicode, color=terminal.color))

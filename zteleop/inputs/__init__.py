@@ -20,6 +20,8 @@ class Input(Protocol):
     """What a full stick means."""
     finished: bool
     """The operator asked to end."""
+    stop_wish: bool | None
+    """True to stop the robot until released, False to release it; whoever takes the wish leaves None."""
 
     def fileno(self) -> int | None:
         """Return what turns readable when something was done; None for a device without a file."""

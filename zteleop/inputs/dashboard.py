@@ -34,6 +34,8 @@ class Dashboard(NamedTuple):
     idle_left: float | None = None
     """s until neutral for want of a key."""
     note: str = ""
+    alarm: bool = False
+    """The note says what the operator must know now."""
     steps: Steps = Steps()
 
 

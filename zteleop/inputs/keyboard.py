@@ -7,7 +7,7 @@ from msgspec.structs import replace
 
 from zteleop.control.stick import Speeds, Stick
 from zteleop.errors import DeviceError
-from zteleop.inputs.held_keys import Block, HeldKeys
+from zteleop.inputs.held_keys import FIRST, REPEATING, Block, HeldKeys
 from zteleop.inputs.keymap import DIRECTIONS, bindings
 from zteleop.inputs.keys import KeyParser
 from zteleop.inputs.levers import Axis, Levers, Steps
@@ -41,6 +41,7 @@ class Keyboard:
         self.drive: Literal["step", "hold"] = drive
         self.speeds = speeds or Speeds()
         self.finished = False
+        self.stop_wish: bool | None = None
         self.suspending = False
         """Ctrl-Z was pressed: publish neutral, then call `suspend`."""
         self.idle_limit = IDLE_LIMIT
@@ -54,6 +55,7 @@ class Keyboard:
         self._now = 0.0
         self._acted = float("-inf")
         self._resumed = 0
+        self._wished = {True: float("-inf"), False: float("-inf")}
 
     def __enter__(self) -> Self:
         self.terminal.__enter__()
@@ -125,7 +127,7 @@ class Keyboard:
 
     def _press(self, key: str) -> None:
         action = self._bindings.get(key) or self._bindings.get(key.lower(), "")
-        if self.finished or self.suspending:
+        if (self.finished or self.suspending) and action != "stop robot":
             return
         if action in DIRECTIONS:
             self._drive(key, *DIRECTIONS[action])
@@ -133,7 +135,7 @@ class Keyboard:
             ACTIONS[action](self)
 
     def _drive(self, key: str, axis: Axis, sign: int) -> None:
-        if not self._block.passes(key, self._now):
+        if not self._block.passes(key, self._now) or self.stop_wish:
             return
         if self.drive == "step":
             self._levers.press(axis, sign)
@@ -149,6 +151,20 @@ class Keyboard:
         """Bring the throttle to neutral, the steering as it is; held keys are let go."""
         self._levers.neutral("throttle")
         self._held.clear()
+
+    def stop_robot(self) -> None:
+        """Go neutral and ask for a stop that stays; a key that repeats is one press."""
+        self.reset(self._now)
+        self._wish(True, REPEATING)
+
+    def release_robot(self) -> None:
+        """Ask for the release of the stop; held down, never of one that came later."""
+        self._wish(False, FIRST)
+
+    def _wish(self, stop: bool, gap: float) -> None:
+        if self._now - self._wished[stop] > gap:
+            self.stop_wish = self.stop_wish or stop
+        self._wished[stop] = self._now
 
     def quit(self) -> None:
         """Ask the program to end, neutral."""
@@ -191,6 +207,8 @@ class Keyboard:
 ACTIONS: dict[str, Callable[[Keyboard], None]] = {
     "stop": Keyboard.stop,
     "neutral": Keyboard.neutral,
+    "stop robot": Keyboard.stop_robot,
+    "release robot": Keyboard.release_robot,
     "faster": Keyboard.faster,
     "slower": Keyboard.slower,
     "turn faster": Keyboard.turn_faster,

@@ -9,6 +9,7 @@ KEYS: dict[str, str] = {
     **{"up": "forward", "down": "reverse", "left": "left", "right": "right"},
     **{"w": "forward", "s": "reverse", "a": "left", "d": "right"},
     **{"space": "stop", "x": "neutral"},
+    **{"backspace": "stop robot", "r": "release robot"},
     **{"u": "faster", "j": "slower", "i": "turn faster", "k": "turn slower"},
     **{"q": "quit", "ctrl-c": "quit", "ctrl-z": "suspend", "ctrl-l": "redraw"},
 }

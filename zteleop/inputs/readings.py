@@ -11,6 +11,7 @@ from zteleop.inputs.top_view import pose
 from zteleop.messages import Twist
 
 COLORS = {"driving": "green", "stopped": "red", "fault": "red"}
+STOP, RELEASE = ("backspace", "STOP"), ("r", "release")
 KEYS = {
     "step": (("arrows/wasd", "drive"), ("space", "stop"), ("x", "neutral"), ("q", "quit")),
     "hold": (
@@ -31,13 +32,22 @@ def readings(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
 
 def footer(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
     """Return the lines at the bottom: what the keys do, and the latest of the log."""
-    note = cut(printable(d.note, unicode), columns)
-    return [*key_lines(d, columns), line(5 if note else 9, note, "dim")]
+    return [*key_lines(d, columns), *note_lines(d, columns, unicode)]
+
+
+def note_lines(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
+    """Return the note, cut; an alarm is whole, and goes last."""
+    note = printable(d.note, unicode)
+    if d.alarm:
+        return [line(0, text, "red") for text in wrap(note, columns)[:4]]
+    note = cut(note, columns)
+    return [line(5 if note else 9, note, "dim")]
 
 
 def brief(d: Dashboard, unicode: bool) -> list[Span]:
     """Return all that matters on a single line."""
-    return [*state(d, unicode), Span(f"  {values(d)}"), Span("  " + printable(d.note, unicode), "dim")]
+    note = Span("  " + printable(d.note, unicode), "red" if d.alarm else "dim")
+    return [*state(d, unicode), *([note] if d.alarm else [Span(f"  {values(d)}"), note])]
 
 
 def heading(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
@@ -119,7 +129,8 @@ def steering_angle(d: Dashboard) -> float:
 
 
 def key_lines(d: Dashboard, columns: int) -> list[Line]:
-    keys: Iterable[tuple[str, str]] = KEYS[d.drive]
+    stopped = d.status is not None and d.status.state == "stopped"
+    keys: Iterable[tuple[str, str]] = [STOP, *([RELEASE] if stopped else []), *KEYS[d.drive]]
     if d.vehicle is not None and d.vehicle.kind == "ackermann":
         keys = [(key, does) for key, does in keys if key != "i/k"]
     lines: list[list[Span]] = [[]]
@@ -127,5 +138,6 @@ def key_lines(d: Dashboard, columns: int) -> list[Line]:
         used = sum(len(span.text) for span in lines[-1])
         if used and used + 3 + len(key) + 1 + len(does) > columns:
             lines.append([])
-        lines[-1] += [*([Span("   ")] if lines[-1] else []), Span(key, "bold"), Span(f" {does}", "dim")]
+        style = "bold" if (key, does) == STOP else "dim"
+        lines[-1] += [*([Span("   ")] if lines[-1] else []), Span(key, "bold"), Span(f" {does}", style)]
     return [Line(7 if index else 6, spans) for index, spans in enumerate(lines)]

@@ -83,7 +83,13 @@ class Actuator:
             self._journal.event("start", robot=self._node.robot, epoch=self._drive.gate.epoch)
             self._node.spin()
         finally:
+            self._finish()
+
+    def _finish(self) -> None:
+        """Leave neutral behind, as far as the chip takes it."""
+        try:
             self._output.rest()
+        finally:
             self._output.close()
             self._journal.close()
 

@@ -5,8 +5,9 @@ from typing import NamedTuple
 
 from zteleop.bus import clock
 from zteleop.bus.node import Node
+from zteleop.control.hold import HOLDS
 from zteleop.control.stick import Stick, neutral_pwm, to_pwm, to_twist
-from zteleop.errors import ConfigError
+from zteleop.errors import BusError, ConfigError
 from zteleop.inputs import Input
 from zteleop.messages import (
     DriveStatus,
@@ -18,10 +19,13 @@ from zteleop.messages import (
     TwistStamped,
     Vehicle,
 )
+from zteleop.nodes.stopping import Stopping, person
 
 PERIOD = 0.05
 NEUTRALS = 3
 LINK_LOSS = 2.0
+NEWS = 5.0
+"""s that the answer to a stop or a release is shown."""
 SHOW_AFTER = 0.004  # drawing at once would hold up what was just said on its way out
 
 
@@ -38,6 +42,8 @@ class View(NamedTuple):
     """the robot obeys this device"""
     odom: Odometry | None
     note: str
+    alarm: bool
+    """the note says that nobody acknowledged a stop"""
 
 
 class Teleop:
@@ -53,8 +59,10 @@ class Teleop:
         self._statuses = node.subscription("drive_status", DriveStatus)
         self._odoms = node.subscription("odom", Odometry)
         self._logs = node.subscription("log", Log)
+        self._stopping = Stopping(node, person())
         self._status: DriveStatus | None = None
         self._status_at = float("-inf")
+        self._at_rest = False
         self._odom: Odometry | None = None
         self._note = ""
         self._epoch: int | None = None
@@ -65,7 +73,10 @@ class Teleop:
         device.fit(vehicle)
 
     def run(self) -> None:
-        """Drive until the operator has enough; the last word is neutral."""
+        """Drive until the operator has enough; the last word is neutral.
+
+        Raises BusError when he leaves and nobody has acknowledged his stop.
+        """
         file = self._device.fileno()
         if file is not None:
             self._node.watch(file, self.obey)
@@ -74,14 +85,18 @@ class Teleop:
             self._node.spin()
         finally:
             self._say(None)
+        if self._stopping.unanswered:
+            raise BusError(self._stopping.words)
 
     def obey(self) -> None:
         """Take in what the operator did, say what the stick asks for, and soon show it."""
         now = clock.now()
         self._notice_robot(now)
+        self._notice_rest(now)
         if self._device.read(now):
             self._twists.act()
             self._pwms.act()
+        self._pass_on_wish(now)
         stick = self._device.stick(now)
         command = self._command(stick)
         if command:
@@ -91,7 +106,7 @@ class Teleop:
             self._say(command)
         self._stick, self._wanted = stick, command
         self._picture.due = now + SHOW_AFTER
-        if self._device.finished:
+        if self._device.finished and self._stopping.state != "pending":
             self._node.stop()
 
     def _draw(self) -> None:
@@ -120,6 +135,27 @@ class Teleop:
         if vehicle and vehicle != self._vehicle:
             self._refit(vehicle, now)
 
+    def _notice_rest(self, now: float) -> None:
+        """Let go when the robot is kept at rest, and when that ends: the next act begins from neutral."""
+        status = self._statuses.newest()
+        if status:
+            self._status, self._status_at = status, now
+        elif now - self._status_at > LINK_LOSS:
+            self._status = None
+        self._stopping.heed(status, now)
+        at_rest = self._status is not None and self._status.state in HOLDS
+        if at_rest != self._at_rest:
+            self._at_rest = at_rest
+            self._device.reset(now)
+
+    def _pass_on_wish(self, now: float) -> None:
+        wish, self._device.stop_wish = self._device.stop_wish, None
+        if wish:
+            self._stopping.engage(now)
+            self._device.reset(now)
+        elif wish is False:
+            self._stopping.release(self._status, now)
+
     def _refit(self, vehicle: Vehicle, now: float) -> None:
         """Learn another calibration; what this device cannot drive is said, and never driven."""
         try:
@@ -130,14 +166,17 @@ class Teleop:
             self._node.log.warn(f"{self._node.robot} cannot be driven like this: {error}")
 
     def _view(self, now: float) -> View:
-        status = self._statuses.newest()
-        if status:
-            self._status, self._status_at = status, now
-        elif now - self._status_at > LINK_LOSS:
-            self._status = None
         self._odom = self._odoms.newest() or self._odom
+        publisher = self._pwms if self._device.drive == "step" else self._twists
+        status = self._status
+        ours = status is not None and status.operator == publisher.sender
+        note, alarm = self._news(now), self._stopping.unanswered
+        return View(now, self._vehicle, self._stick, self._wanted, status, ours, self._odom, note, alarm)
+
+    def _news(self, now: float) -> str:
+        """Return what the robot answers to a stop or a release, for a while; else the latest of the log."""
         log = self._logs.newest()
         self._note = f"{log.name}: {log.msg}" if log else self._note
-        publisher = self._pwms if self._device.drive == "step" else self._twists
-        ours = self._status is not None and self._status.operator == publisher.sender
-        return View(now, self._vehicle, self._stick, self._wanted, self._status, ours, self._odom, self._note)
+        asking = self._stopping
+        pending = asking.state == "pending" or asking.unanswered
+        return asking.words if pending or now - asking.ended < NEWS else self._note

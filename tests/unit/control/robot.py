@@ -34,7 +34,12 @@ class Robot:
         return self.drive.receive(source, command, prover.prove(beat, moving, self.now), self.now)
 
     def hold(
-        self, command: Twist | Pwm, seconds: float, act: bool = True, sender: str = "a", source: str = "keyboard"
+        self,
+        command: Twist | Pwm,
+        seconds: float,
+        act: bool = True,
+        sender: str = "a",
+        source: str = "keyboard",
     ) -> Step:
         """Say a command about 17 times a second, as somebody who holds a key."""
         for _ in range(round(seconds * 20)):

@@ -14,6 +14,7 @@ from zteleop.control.report import status
 from zteleop.control.servo import Servo
 from zteleop.messages import Pwm, Twist
 
+
 def test_at_rest_every_channel_is_neutral() -> None:
     step = Robot().wait(0.1)
     assert (step.state, step.pulse_us) == ("idle", NEUTRAL)
@@ -236,7 +237,8 @@ def test_a_sender_whose_process_is_gone_lets_go_at_once() -> None:
     step = robot.step()
     assert (step.state, step.why, moves(step)) == ("link lost", "keyboard is gone", False)
     assert robot.say(FORWARD, "b") is None  # and somebody else may take over
-    robot.wait(0.4)
+    robot.say(REST, "b")
+    assert robot.step().state == "idle"
     assert moves(robot.hold(FORWARD, 0.2))  # or it is heard again
 
 
@@ -262,8 +264,9 @@ def test_refusals_are_counted_by_source_while_their_reason_lasts() -> None:
     refused = robot.drive.refusals["web"]
     assert (refused.why, refused.times, refused.since) == (Refusal.UNPROVEN, 3, first)
     assert refused.at == pytest.approx(first + 0.2)
-    robot.stop(7)
+    robot.drive.hold("chip", "fault", "the chip is silent", robot.now)
     robot.say(FORWARD, source="web")
+    assert robot.step().why == "the chip is silent"  # which is what matters
     assert robot.drive.refusals["web"] == (Refusal.AT_REST, robot.now, robot.now, 1)
     assert (robot.drive.refused, set(robot.drive.refusals)) == (4, {"web"})
 
@@ -281,6 +284,7 @@ def test_a_foreign_sender_does_not_drive_on_when_the_robot_was_stopped_for_a_whi
     assert robot.drive.receive("nav", FORWARD, None, robot.now) is None
     robot.now += 3.0
     robot.drive.restart(2, robot.now)
+    robot.wait(0.02)
     assert robot.drive.receive("nav", FORWARD, None, robot.now) is Refusal.NOT_FROM_NEUTRAL
     assert robot.drive.receive("nav", REST, None, robot.now) is None
     robot.wait(0.02)

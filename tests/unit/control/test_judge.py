@@ -296,17 +296,36 @@ def test_a_foreign_sender_trusted_by_arrival_may_drive_until_its_silence(robot: 
 
 
 @pytest.mark.parametrize("gap", [0.5, 0.502, 0.51, 0.6])
-def test_a_foreign_sender_begins_anew_for_both_or_for_the_judge_alone(robot: Watched, gap: float) -> None:
+def test_a_foreign_sender_that_begins_anew_for_the_drive_does_so_for_the_judge(
+    robot: Watched, gap: float
+) -> None:
     """The judge hears it at other times, and its pauses a little shorter."""
     robot.wait(0.6)
-    robot.judge.receive("nav", FORWARD, None, robot.now + 0.02)
-    robot.drive.receive("nav", FORWARD, None, robot.now)
+    for _ in range(10):
+        robot.tell("nav", FORWARD, None)
+        robot.wait(0.1)
     robot.rest(True)
     robot.rest(False)
+    robot.judge.receive("nav", FORWARD, None, robot.now + 0.02)
+    robot.drive.receive("nav", FORWARD, None, robot.now)
     robot.now += gap
-    robot.judge.receive("nav", FORWARD, None, robot.now)
-    if robot.drive.receive("nav", FORWARD, None, robot.now) is None:
-        assert robot.judge.allowed(robot.now)
+    judged = robot.judge.receive("nav", FORWARD, None, robot.now)
+    assert judged is None or robot.drive.receive("nav", FORWARD, None, robot.now)
+
+
+def test_a_command_just_young_enough_for_the_drive_is_so_for_the_judge(robot: Watched) -> None:
+    made = robot.now
+    robot.now += 0.295
+    assert robot.tell("keyboard", FORWARD, Proof(1, 1, 1, made, made, made)) is None
+    assert robot.judge.allowed(robot.now + 0.01)
+
+
+def test_a_letting_go_that_the_judge_alone_heard_is_no_fault(robot: Watched) -> None:
+    robot.hold(FORWARD, 0.2)
+    now = robot.now
+    robot.judge.receive("keyboard", REST, Proof(1, 9999, 1, now, now, now), now)
+    robot.wait(0.3)
+    assert robot.why is None
 
 
 def test_a_source_without_proof_is_not_trusted(robot: Watched) -> None:
@@ -319,10 +338,10 @@ def test_its_memory_is_bounded_and_keeps_who_drives(robot: Watched) -> None:
         robot.say(FORWARD)
         now = robot.now
         robot.tell("program", FORWARD, Proof(sender, 1, 1, now, now, now))
+        claims = robot.judge._drive.mux.claims
+        assert len(claims) <= SENDERS
+        assert any(claim.sender == 1 for claim in claims)
         robot.wait(0.02)
-    claims = robot.judge._drive.mux.claims
-    assert len(claims) <= SENDERS
-    assert any(claim.sender == 1 for claim in claims)
 
 
 def test_half_a_tick_is_rest_and_an_output_that_is_off_too(robot: Watched) -> None:

@@ -144,7 +144,16 @@ class Sender:
         proof = self.prover.prove(self.beat, moving, then)
         epoch, beat = (self.beat.epoch, self.beat.time) if self.beat else (-1, NEVER)
         return Told(
-            self.source, self.identity, self.number, command, moving, proof, epoch, beat, self._acted, self._began
+            self.source,
+            self.identity,
+            self.number,
+            command,
+            moving,
+            proof,
+            epoch,
+            beat,
+            self._acted,
+            self._began,
         )
 
 
@@ -159,6 +168,8 @@ class World:
         self.now, self.epoch = 100.0, 0
         self.visited: dict[str, int] = {}
         self.steps = self.moved = self.refused = 0
+        self.pressed = self.obeyed = 0
+        """Fresh presses from neutral that nothing stood against, and how many of them drove."""
         self.trail: deque[tuple[float, str, object]] = deque(maxlen=60)
         self.wire: list[tuple[float, int, Told]] = []
         self.ear: list[tuple[float, int, Told]] = []
@@ -321,8 +332,25 @@ class World:
 
     def _press(self, who: int) -> None:
         sender = self.senders[who]
+        fresh = sender.command is None and sender.speaks and not sender.delay
         sender.command, sender.frozen = self.random.choice(COMMANDS), False
         self.say(sender, sender.command, act=True)
+        if fresh and self._must_drive(sender):
+            self.pressed += 1
+            self.obeyed += self.drive.step(self.now).state == "driving"
+
+    def _must_drive(self, sender: Sender) -> bool:
+        """Say whether nothing stands against a claim that has just begun and was heard at once."""
+        truth, beat = self.truth, sender.beat
+        others = [told for told, _ in truth.claims.values() if told.sender != sender.identity]
+        return (
+            not truth.holds
+            and beat is not None
+            and beat.epoch == truth.epoch
+            and beat.time > max(truth.floor, truth.lost.get(sender.identity, NEVER))
+            and self.now - beat.time <= MAX_AGE
+            and all(told.source != sender.source for told in others)
+        )
 
     def _act(self, who: int) -> None:
         """Whoever holds something acts once more; or acts no more, and it is only said again."""
@@ -459,8 +487,22 @@ def walk(world: World, steps: int) -> None:
     while world.steps < steps:
         for name in random.choices(names, weights, k=100):
             world.do(name, random.choice(ACTS[name][1]))
-        if random.random() < 0.05:
+        if random.random() < 0.5:
+            _drive_well(world)
+        if random.random() < 0.1:
             _keep_still(world)
+
+
+def _drive_well(world: World) -> None:
+    """Let somebody drive with nothing in the way; the walk itself seldom lets it be for long."""
+    who = world.random.choice(WHO)
+    sender = world.senders[who]
+    sender.speaks, sender.hears, sender.delay, sender.acts = True, True, 0.0, True
+    for name, argument in (("release", "right"), ("fault", False), ("arm", False), ("carry_on", 0.06)):
+        world.do(name, argument)
+    for name in ("let_go", "press"):
+        world.do(name, who)
+        world.do("carry_on", 0.06)
 
 
 def _keep_still(world: World) -> None:
@@ -469,5 +511,5 @@ def _keep_still(world: World) -> None:
     for sender in world.senders:
         sender.acts = False
     while quiet > 0:
-        quiet -= 0.15
-        world.do("carry_on", 0.15)
+        quiet -= 0.1
+        world.do("carry_on", 0.1)

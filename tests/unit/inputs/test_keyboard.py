@@ -4,10 +4,11 @@ from hypothesis import strategies as st
 
 from zteleop.control.stick import Speeds, Stick, to_pwm
 from zteleop.errors import ConfigError
-from zteleop.inputs.held_keys import FIRST
+from zteleop.inputs.held_keys import FIRST, REPEATING
 from zteleop.inputs.keyboard import Keyboard
 from zteleop.messages import Channel, Vehicle
 
+DELETE = b"\x7f"
 UP, DOWN, RIGHT, LEFT = b"\x1b[A", b"\x1b[B", b"\x1b[C", b"\x1b[D"
 
 
@@ -53,6 +54,11 @@ class Bench:
             self.keyboard.fit(vehicle)
         self.now = 100.0
 
+    def wish(self) -> bool | None:
+        """Take the wish, as whoever passes it on does."""
+        wish, self.keyboard.stop_wish = self.keyboard.stop_wish, None
+        return wish
+
     def type(self, data: bytes, after: float = 0.0) -> bool:
         self.now += after
         self.terminal.data = data
@@ -96,6 +102,86 @@ def test_space_stops_the_throttle_and_keeps_the_steering(step):
 def test_x_brings_both_to_neutral(step):
     step.type(UP + LEFT + b"x")
     assert step.ticks() is None
+
+
+@pytest.mark.parametrize("drive", ["step", "hold"])
+@pytest.mark.parametrize("key", [DELETE, b"\x08"])
+def test_backspace_is_neutral_and_a_wish_to_stop(car, drive, key):
+    bench = Bench(drive, car)
+    bench.type(UP + LEFT)
+    assert bench.stick().deadman
+    assert bench.wish() is None
+    assert bench.type(key)
+    assert bench.stick() == Stick()
+    assert bench.wish() is True
+
+
+@pytest.mark.parametrize("drive", ["step", "hold"])
+def test_a_key_held_through_a_stop_must_be_let_go_first(car, drive):
+    bench = Bench(drive, car)
+    bench.type(UP)
+    bench.type(DELETE, after=0.1)
+    bench.wish()
+    for _ in range(20):
+        bench.type(UP, after=0.1)
+        assert bench.stick() == Stick()
+    bench.type(UP, after=FIRST + 0.01)
+    assert bench.stick().forward > 0
+
+
+@pytest.mark.parametrize("keys", [DELETE + UP + UP, DELETE + b"r", b"r" + DELETE, DELETE + b"r" + UP])
+def test_what_is_typed_around_a_stop_neither_drives_nor_releases(step, keys):
+    step.type(keys)
+    assert step.wish() is True
+    assert step.stick() == Stick()
+
+
+@pytest.mark.parametrize("key", [b"q", b"\x1a"])
+def test_a_stop_is_heard_whatever_else_is_asked_in_the_same_breath(step, key):
+    step.type(key + DELETE)
+    assert step.wish() is True
+    step.type(DELETE + b"q", after=1.0)
+    assert step.wish() is True
+
+
+def test_one_can_leave_in_the_same_breath_as_a_stop(step):
+    step.type(DELETE + b"q")
+    assert step.keyboard.finished
+
+
+@pytest.mark.parametrize("key", [b"r", b"R"])
+def test_r_is_a_wish_to_release_and_moves_nothing(step, key):
+    step.type(UP)
+    before = step.ticks()
+    step.type(key)
+    assert step.wish() is False
+    assert step.ticks() == before
+
+
+def test_a_stop_key_that_repeats_is_one_wish_and_pressed_again_another(step):
+    step.type(DELETE + DELETE)
+    assert step.wish() is True
+    for _ in range(10):
+        step.type(DELETE, after=REPEATING - 0.01)
+        assert step.wish() is None
+    step.type(DELETE, after=REPEATING + 0.01)
+    assert step.wish() is True
+
+
+def test_a_release_key_held_down_is_one_wish(step):
+    step.type(b"r")
+    assert step.wish() is False
+    step.type(b"r", after=FIRST - 0.01)
+    assert step.wish() is None
+    step.type(b"r", after=FIRST + 0.01)
+    assert step.wish() is False
+
+
+def test_a_stop_at_once_after_a_release_counts(step):
+    step.type(b"r")
+    step.wish()
+    step.type(DELETE, after=0.01)
+    assert step.wish() is True
 
 
 @pytest.mark.parametrize("key", [b"q", b"\x03"])
@@ -269,7 +355,7 @@ def test_the_terminal_is_entered_and_left(step):
 
 
 CHUNKS = st.one_of(
-    st.sampled_from([UP, DOWN, LEFT, RIGHT, b"w", b" ", b"x", b"u", b"i"]), st.binary(max_size=3)
+    st.sampled_from([UP, DOWN, LEFT, RIGHT, b"w", b" ", b"x", b"u", b"i", DELETE]), st.binary(max_size=3)
 )
 
 
@@ -283,6 +369,7 @@ def test_any_keys_give_a_stick_in_range(drive, chunks, reset_at):
     for index, (data, after) in enumerate(chunks):
         bench.type(data, after)
         stick = bench.stick()
+        assert not (bench.wish() and stick.deadman)
         assert -1 <= stick.forward <= 1
         assert -1 <= stick.turn <= 1
         assert bench.ticks() is None or all(290 <= ticks <= 460 for ticks in bench.ticks())

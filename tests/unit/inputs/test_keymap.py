@@ -9,6 +9,11 @@ def test_every_key_has_an_action_there_is():
     assert set(KEYS.values()) <= {*ACTIONS, *DIRECTIONS}
 
 
+def test_the_stop_and_its_release_have_a_key_each():
+    assert [key for key, action in KEYS.items() if action == "stop robot"] == ["backspace"]
+    assert [key for key, action in KEYS.items() if action == "release robot"] == ["r"]
+
+
 def test_keys_are_added_to_the_usual_ones():
     known = bindings({"8": "forward", "w": "stop"}, {"forward", "stop"})
     assert (known["8"], known["w"], known["up"]) == ("forward", "stop", "forward")

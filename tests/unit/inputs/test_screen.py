@@ -17,7 +17,8 @@ def shown(board: Dashboard, columns: int = 80, rows: int = 24) -> list[str]:
 
 def board(car: Vehicle, drive: str = "step", why: str = "obeying keyboard", note: str = "") -> Dashboard:
     pulses = [Pulse("steering", 1, 0.5, 1500.0, 330)]
-    status = DriveStatus("driving", why, "keyboard", "3fa2", Twist.zero(), Twist.zero(), pulses, 1, 0.0, 0, 0)
+    rest = Twist.zero()
+    status = DriveStatus("driving", why, "keyboard", "3fa2", rest, rest, pulses, 1, 0.0, 0, 0, 0)
     return Dashboard(
         "archangel", drive, Speeds(), car, pwm=Pwm(375, 370), status=status, odom=Odometry.zero(), note=note
     )
@@ -50,6 +51,44 @@ def test_the_keys_and_the_note_are_at_the_bottom(car):
     assert len(lines) == 24
     assert "q quit" in lines[-2]
     assert lines[-1] == "connected to archangel"
+
+
+@pytest.mark.parametrize("columns", [80, 40, 24, 16])
+@pytest.mark.parametrize("drive", ["step", "hold"])
+def test_the_stop_key_comes_first_and_the_release_key_only_while_stopped(car, columns, drive):
+    page = board(car, drive)
+    text = " ".join(shown(page, columns, 40))
+    assert "backspace STOP" in text
+    assert "r release" not in text
+    page.status.state = "stopped"
+    lines = [line for line in shown(page, columns, 40) if "backspace STOP" in line or "r release" in line]
+    assert " ".join(lines).split()[:4] == ["backspace", "STOP", "r", "release"]
+
+
+def test_stopped_is_said_in_red_with_its_reason_and_the_stop_key_is_bold(car):
+    page = board(car, why="stopped by ann@desk: a cat")
+    page.status.state = "stopped"
+    for columns in (80, 40):
+        lines = render(page, columns, 24, unicode=True, color=True)
+        assert any("\x1b[31m● stopped\x1b[0m" in line for line in lines[:2])
+        assert "stopped by ann@desk: a cat" in lines
+        assert any("\x1b[1mbackspace\x1b[0m\x1b[1m STOP\x1b[0m" in line for line in lines)
+    assert shown(page)[3] == "Currently outputting:[Steering PWM, Throttle PWM] = [375, 370]"
+
+
+ALARM = "archangel has not acknowledged the stop within 2 s: cut its power, or run zteleop neutral on it"
+
+
+@pytest.mark.parametrize(("columns", "rows"), [(80, 24), (40, 12), (30, 6), (120, 40)])
+def test_an_alarm_is_whole_and_red_in_any_window(car, columns, rows):
+    page = board(car, note=ALARM)._replace(alarm=True)
+    assert ALARM in " ".join(shown(page, columns, rows))
+    reds = [line for line in render(page, columns, rows, unicode=True, color=True) if "\x1b[31m" in line]
+    assert ALARM in " ".join(re.sub(r"\x1b\[\d+m", "", line) for line in reds)
+
+
+def test_on_a_single_line_an_alarm_stands_before_what_is_driven(car):
+    assert shown(board(car, note=ALARM)._replace(alarm=True), 60, 1) == [f"● driving  {ALARM}"[:60]]
 
 
 def test_a_small_window_keeps_what_matters_most(car):
@@ -95,7 +134,8 @@ def boards(draw) -> Dashboard:
     )
     pulses = [Pulse(draw(st.one_of(st.just("steering"), WORDS)), 0, draw(ANY), 1.0, draw(ticks))]
     twist = Twist.planar(draw(ANY), draw(ANY))
-    status = DriveStatus("idle", draw(WORDS), draw(WORDS), draw(WORDS), twist, twist, pulses, 0, 0.0, 0, 0)
+    state = draw(st.sampled_from(["idle", "stopped"]))
+    status = DriveStatus(state, draw(WORDS), draw(WORDS), draw(WORDS), twist, twist, pulses, 0, 0.0, 0, 0, 0)
     odom = Odometry.zero()
     odom.pose.pose.position.x, odom.pose.pose.orientation.z = draw(ANY), draw(ANY)
     return Dashboard(
@@ -111,6 +151,7 @@ def boards(draw) -> Dashboard:
         trail=draw(st.lists(st.tuples(ANY, ANY), max_size=3)),
         idle_left=draw(st.sampled_from([None, 0.0, 3.2])),
         note=draw(WORDS),
+        alarm=draw(st.booleans()),
     )
 
 

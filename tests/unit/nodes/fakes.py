@@ -1,11 +1,14 @@
 """A node that is on no bus: it remembers what was said, and hears what a test puts into its inboxes."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from types import SimpleNamespace
 from typing import Any
 
+from unit.bus.fakes import Clock
+
 from zteleop.bus.loop import FAR
-from zteleop.messages import Beat, Message, Vehicle
+from zteleop.errors import DeviceError
+from zteleop.messages import Beat, Message, Stop, Vehicle
 
 Action = Callable[[], object]
 
@@ -17,6 +20,7 @@ class Said:
         self.topic, self.sender = topic, sender
         self.messages: list[Any] = []
         self.acts = 0
+        self.matched = True
 
     def act(self) -> None:
         self.acts += 1
@@ -37,7 +41,11 @@ class Said:
 class Inbox:
     def __init__(self, handler: Callable[[Any], object] | None) -> None:
         self.handler = handler
-        self.waiting: list[Message] = []
+        self.waiting: list[Any] = []
+
+    def take(self) -> Iterator[Any]:
+        while self.waiting:
+            yield self.waiting.pop(0)
 
     def newest(self) -> Any:
         message = self.waiting[-1] if self.waiting else None
@@ -51,14 +59,19 @@ class Node:
         self.said: dict[str, Said] = {}
         self.inboxes: dict[str, Inbox] = {}
         self.timers: dict[float, Action] = {}
+        self._due: dict[float, float] = {}
         self.watched: dict[int, Action] = {}
         self.alarms: list[SimpleNamespace] = []
         self.robot_heard = SimpleNamespace(beat=None, vehicle=None, at=float("-inf"))
         self.stopped = False
         self.infos: list[str] = []
         self.warnings: list[str] = []
+        self.errors: list[str] = []
+        self.leaves: Callable[[int], object] = lambda sender: None
         self.log = SimpleNamespace(
-            info=self.infos.append, warn=lambda text, subject="": self.warnings.append(text)
+            info=self.infos.append,
+            warn=lambda text, subject="": self.warnings.append(text),
+            error=lambda text, subject="": self.errors.append(text),
         )
         self.spin: Action = lambda: None
 
@@ -66,16 +79,43 @@ class Node:
         return self.said.setdefault(topic, Said(f"{topic}/{source}", sender=f"{len(self.said) + 1:x}"))
 
     def subscription(
-        self, topic: str, types: object, handler: Callable[[Any], object] | None = None
+        self,
+        topic: str,
+        types: object,
+        handler: Callable[[Any], object] | None = None,
+        *,
+        depth: int | None = None,
+        complain: bool = True,
     ) -> Inbox:
         return self.inboxes.setdefault(topic, Inbox(handler))
 
+    def departures(self, handler: Callable[[int], object]) -> None:
+        self.leaves = handler
+
     def every(self, period: float) -> Callable[[Action], Action]:
+        """Keep a timer under its period; two of the same period run one after the other."""
+
         def decorate(function: Action) -> Action:
-            self.timers[period] = function
+            before = self.timers.get(period)
+            self.timers[period] = (lambda: (before(), function())) if before else function
             return function
 
         return decorate
+
+    def live(self, clock: Clock, seconds: float) -> None:
+        """Let time pass, and run each timer, the first time at once, and each alarm when it is due."""
+        end = clock.time + seconds
+        while self.timers:
+            for period, action in list(self.timers.items()):
+                if self._due.get(period, clock.time) <= clock.time:
+                    self._due[period] = self._due.get(period, clock.time) + period
+                    action()
+            self.ring(clock.time)
+            due = min([*self._due.values(), *(alarm.due for alarm in self.alarms)])
+            if due > end or self.stopped:
+                break
+            clock.time = max(clock.time, due)
+        clock.time = end
 
     def alarm(self, action: Action) -> SimpleNamespace:
         self.alarms.append(SimpleNamespace(action=action, due=FAR))
@@ -91,6 +131,9 @@ class Node:
     def watch(self, file: int, action: Action) -> None:
         self.watched[file] = action
 
+    def unwatch(self, file: int) -> None:
+        self.watched.pop(file, None)
+
     def heard(self) -> SimpleNamespace:
         return self.robot_heard
 
@@ -101,3 +144,63 @@ class Node:
         """Hear a beat of the robot, and perhaps what it says of itself."""
         self.robot_heard.beat, self.robot_heard.at = Beat(epoch, now), now
         self.robot_heard.vehicle = vehicle or self.robot_heard.vehicle
+
+
+class Chip:
+    """A driver that keeps what it was told, and fails as often as a test says."""
+
+    tick_us = 4.08
+
+    def __init__(self, arming: float = 0.0) -> None:
+        self.arming = arming
+        self.pulses: dict[int, float | None] = {}
+        self.writes: list[dict[int, float]] = []
+        self.log: list[str] = []
+        self.broken: set[str] = set()
+        """Which of its methods fail."""
+
+    def start(self, neutral_us: dict[int, float]) -> None:
+        self._do("start", neutral_us)
+
+    def write(self, pulse_us: dict[int, float]) -> None:
+        self._do("write", pulse_us)
+
+    def read(self, channels: Iterable[int]) -> dict[int, float | None]:
+        self._do("read")
+        return {channel: self.pulses.get(channel) for channel in channels}
+
+    def check(self) -> None:
+        self._do("check")
+
+    def close(self) -> None:
+        self.log.append("close")
+
+    def _do(self, name: str, pulse_us: dict[int, float] | None = None) -> None:
+        self.log.append(name)
+        if name in self.broken:
+            raise DeviceError(f"the chip does not take a {name}")
+        if pulse_us:
+            self.writes.append(pulse_us)
+            self.pulses.update(pulse_us)
+
+
+class Shelf:
+    """A stop file without a file."""
+
+    def __init__(self, stop: Stop | None = None) -> None:
+        self.stop = stop
+        self.full = self.stuck = False
+        """Nothing more can be kept, or removed."""
+
+    def exists(self) -> bool:
+        return self.stop is not None
+
+    def load(self) -> Stop | None:
+        return self.stop
+
+    def keep(self, stop: Stop) -> None:
+        self.stop = self.stop if self.full else stop
+
+    def remove(self) -> bool:
+        self.stop = self.stop if self.stuck else None
+        return not self.stuck

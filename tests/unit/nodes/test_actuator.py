@@ -1,76 +1,114 @@
 import pytest
 from unit.bus.fakes import Clock
-from unit.nodes.fakes import Node
+from unit.nodes.fakes import Chip, Node, Shelf
 
 from zteleop.bus.subscription import Received
 from zteleop.control.drive import SOURCES, DriveSettings
 from zteleop.control.mux import Source
 from zteleop.control.proof import Proof, Prover
-from zteleop.errors import DeviceError, MessageError
-from zteleop.messages import (
-    Beat,
-    Header,
-    Int16MultiArray,
-    Message,
-    MultiArrayLayout,
-    Pwm,
-    String,
-    Twist,
-    TwistStamped,
-)
+from zteleop.errors import DeviceError
+from zteleop.messages import Beat, DriveStatus, Int16MultiArray, Message, MultiArrayLayout, Pwm, Stop, Twist
 from zteleop.nodes.actuator import (
     AT_MOST_EVERY,
+    CHECK_EVERY,
     DESCRIBE_EVERY,
     IN_A_ROW,
     PERIOD,
     TELL_EVERY,
+    WATCHDOG_SILENCE,
     Actuator,
-    to_command,
 )
+from zteleop.nodes.link import DEAF, HEARS, STOP, Report
+from zteleop.nodes.output import REPAIR_EVERY
 
 NEUTRAL = {0: 1509.6, 1: 1530.0}
 FORWARD = Twist.planar(0.5)
+PUSH = Pwm(390, 370)
+"""On the chip at once: nothing limits how fast one steers."""
+KEPT = Stop(engaged=True, id=5, by="ann", why="a child on the track")
 
 
 def ticks(*data: int) -> Int16MultiArray:
     return Int16MultiArray(MultiArrayLayout.zero(), list(data))
 
 
-class Chip:
-    """A driver that remembers every write."""
-
-    tick_us = 4.08
+class Link:
+    """The watchdog at the other end: what it says, and whether it is still there."""
 
     def __init__(self) -> None:
-        self.writes: list[dict[int, float]] = []
-        self.log: list[str] = []
+        self.words: bytes | None = b""
+        self.reports: list[Report] = []
 
-    def start(self, neutral_us: dict[int, float]) -> None:
-        self.log.append("start")
-        self.writes.append(neutral_us)
+    def fileno(self) -> int:
+        return 9
 
-    def write(self, pulse_us: dict[int, float]) -> None:
-        self.log.append("write")
-        self.writes.append(pulse_us)
+    def read(self) -> bytes:
+        if self.words is None:
+            raise DeviceError("the watchdog is gone")
+        words, self.words = self.words, b""
+        return words
+
+    def report(self, report: Report) -> None:
+        self.reports.append(report)
+
+
+class Journal:
+    def __init__(self) -> None:
+        self.commands: list[tuple[object, ...]] = []
+        self.events: list[tuple[str, dict[str, object]]] = []
+        self.closed = False
+
+    def command(self, *told: object) -> None:
+        self.commands.append(told)
+
+    def event(self, event: str, **values: object) -> None:
+        self.events.append((event, values))
 
     def close(self) -> None:
-        self.log.append("close")
+        self.closed = True
 
 
 class Robot:
-    """An actuator on a chip, and one operator who can prove what is said."""
+    """An actuator on a chip, a watchdog that hears it, and one operator who can prove what is said."""
 
-    def __init__(self, node: Node, clock: Clock, settings: DriveSettings | None = None) -> None:
-        self.node, self.clock, self.chip = node, clock, Chip()
-        self.actuator = Actuator(node, settings or DriveSettings(), self.chip)
+    def __init__(
+        self,
+        node: Node,
+        clock: Clock,
+        settings: DriveSettings | None = None,
+        *,
+        chip: Chip | None = None,
+        shelf: Shelf | None = None,
+        hears: bytes = HEARS,
+    ) -> None:
+        self.node, self.clock = node, clock
+        self.chip, self.link, self.shelf, self.journal = chip or Chip(), Link(), shelf or Shelf(), Journal()
+        self.actuator = Actuator(
+            node, settings or DriveSettings(), self.chip, self.link, self.shelf, self.journal
+        )
         self.actuator.run()
         self.prover = Prover(7)
+        self.tick()
+        if hears:
+            self.hear(hears)
+        self.tick()
         self.chip.writes.clear()
+        self.node.said["drive_status"].take()
 
     @property
     def beat(self) -> Beat:
         self.node.timers[TELL_EVERY]()
         return self.node.said["beat"].messages[-1]
+
+    @property
+    def status(self) -> DriveStatus:
+        self.node.timers[TELL_EVERY]()
+        return self.node.said["drive_status"].messages[-1]
+
+    def hear(self, words: bytes | None) -> None:
+        """Hear the watchdog; None is its end."""
+        self.link.words = words
+        self.node.watched[self.link.fileno()]()
 
     def say(
         self, message: Message, source: str = "keyboard", moving: bool = True, proof: Proof | None = None
@@ -81,9 +119,14 @@ class Robot:
         self.node.inboxes[f"cmd_vel/{source}"].handler(Received(message, key, proof, self.clock.time))
         self.node.ring(self.clock.time)
 
-    def tick(self, times: int = 1) -> None:
+    def stop(self, stop: Stop) -> None:
+        self.node.inboxes["stop"].handler(Received(stop, "robot/archangel/stop", None, self.clock.time))
+
+    def tick(self, times: int = 1, watched: bool = True) -> None:
         for _ in range(times):
             self.clock.pass_by(PERIOD)
+            if watched:
+                self.hear(b"")
             self.node.timers[PERIOD]()
 
 
@@ -92,42 +135,16 @@ def robot(node: Node, clock: Clock) -> Robot:
     return Robot(node, clock)
 
 
-@pytest.mark.parametrize(
-    ("message", "command"),
-    [
-        (FORWARD, FORWARD),
-        (TwistStamped(Header.zero(), FORWARD), FORWARD),
-        (Pwm(390, 400), Pwm(390, 400)),
-        (ticks(390, 400), Pwm(390, 400)),
-        (ticks(390, 400, 99), Pwm(390, 400)),
-    ],
-)
-def test_each_type_of_command_is_a_twist_or_pulses(message: Message, command: Twist | Pwm) -> None:
-    assert to_command(message) == command
-
-
-@pytest.mark.parametrize(
-    ("message", "words"),
-    [
-        (ticks(), r"expected \[steering, throttle\], found \[\]"),
-        (ticks(390), r"expected \[steering, throttle\], found \[390\]"),
-        (String("go"), "a String commands nothing"),
-    ],
-)
-def test_what_commands_nothing_is_refused_in_words(message: Message, words: str) -> None:
-    with pytest.raises(MessageError, match=words):
-        to_command(message)
-
-
-def test_it_hears_every_source_it_knows_by_name_and_no_other(node: Node, clock: Clock) -> None:
+def test_it_hears_every_source_it_knows_by_name_and_stops(node: Node, clock: Clock) -> None:
     Robot(node, clock, DriveSettings(sources={"nav": Source(10)}))
-    assert set(node.inboxes) == {f"{t}/{s}" for t in ("cmd_vel", "pwm") for s in (*SOURCES, "nav")}
-    assert node.infos == ["obeys archangel"]
+    commands = {f"{t}/{s}" for t in ("cmd_vel", "pwm") for s in (*SOURCES, "nav")}
+    assert set(node.inboxes) == {*commands, "stop"}
+    assert node.infos[0] == "obeys archangel"
 
 
 def test_the_chip_starts_at_neutral_and_is_left_at_neutral(node: Node, clock: Clock) -> None:
-    chip = Chip()
-    actuator = Actuator(node, DriveSettings(), chip)
+    chip, journal = Chip(), Journal()
+    actuator = Actuator(node, DriveSettings(), chip, Link(), Shelf(), journal)
     assert (chip.log, chip.writes) == (["start"], [NEUTRAL])
 
     def spin() -> None:
@@ -138,23 +155,177 @@ def test_the_chip_starts_at_neutral_and_is_left_at_neutral(node: Node, clock: Cl
         actuator.run()
     assert chip.log == ["start", "write", "close"]
     assert chip.writes[-1] == NEUTRAL
+    assert journal.closed
 
 
-def test_a_chip_that_fails_ends_it_in_words(node: Node, clock: Clock) -> None:
-    chip = Chip()
-    actuator = Actuator(node, DriveSettings(), chip)
-
-    def fail(pulse_us: dict[int, float]) -> None:
-        raise DeviceError("the chip does not answer")
-
-    chip.write = fail
-    node.spin = lambda: node.timers[PERIOD]()
-    with pytest.raises(DeviceError, match="does not answer"):
+def test_a_chip_that_takes_no_neutral_at_the_end_is_said_and_all_is_closed(node: Node, clock: Clock) -> None:
+    chip, journal = Chip(), Journal()
+    actuator = Actuator(node, DriveSettings(), chip, Link(), Shelf(), journal)
+    chip.broken.add("write")
+    with pytest.raises(DeviceError, match="does not take a write"):
         actuator.run()
+    assert chip.log[-1] == "close"
+    assert journal.closed
+
+
+def test_it_starts_only_when_the_watchdog_hears_it(node: Node, clock: Clock) -> None:
+    robot = Robot(node, clock, hears=b"")
+    assert (robot.status.state, robot.status.why) == (
+        "starting",
+        "the watchdog does not hear this robot on the bus",
+    )
+    robot.say(PUSH)
+    robot.tick()
+    assert robot.chip.pulses == NEUTRAL
+    robot.hear(HEARS)
+    robot.tick()
+    assert robot.status.state == "idle"
+
+
+def test_what_was_begun_before_the_watchdog_heard_it_moves_nothing(node: Node, clock: Clock) -> None:
+    robot = Robot(node, clock, hears=DEAF)
+    robot.say(PUSH)
+    robot.hear(HEARS)
+    robot.tick()
+    robot.say(PUSH)
+    robot.tick()
+    assert robot.chip.pulses == NEUTRAL
+
+
+def test_a_watchdog_that_hears_no_longer_brings_rest(robot: Robot) -> None:
+    robot.say(PUSH)
+    assert robot.chip.pulses != NEUTRAL
+    robot.hear(HEARS + DEAF)
+    robot.tick()
+    assert (robot.status.state, robot.chip.pulses) == ("starting", NEUTRAL)
+
+
+def test_while_the_esc_arms_it_is_starting(node: Node, clock: Clock) -> None:
+    robot = Robot(node, clock, chip=Chip(arming=2.0))
+    assert (robot.status.state, robot.status.why) == ("starting", "neutral for 2 s while the ESC arms")
+    node.timers[DESCRIBE_EVERY]()
+    assert not node.said["vehicle"].messages[-1].ready
+    robot.tick(97)
+    assert robot.status.state == "starting"
+    robot.tick(2)
+    assert robot.status.state == "idle"
+    assert node.said["vehicle"].messages[-1].ready
+
+
+def test_a_stop_that_was_kept_holds_from_the_start(node: Node, clock: Clock) -> None:
+    robot = Robot(node, clock, shelf=Shelf(KEPT))
+    robot.say(PUSH)
+    assert (robot.status.state, robot.status.stop) == ("stopped", 5)
+    assert "stopped by ann: a child on the track" in robot.status.why
+    assert robot.chip.pulses == NEUTRAL
+
+
+def test_a_stop_is_on_the_chip_before_it_is_on_the_disk(robot: Robot) -> None:
+    robot.say(PUSH)
+    kept: list[object] = []
+    robot.shelf.keep = lambda stop: kept.append((stop, dict(robot.chip.pulses)))
+    robot.stop(KEPT)
+    assert kept == [(KEPT, NEUTRAL)]
+    assert (robot.status.state, robot.status.stop) == ("stopped", 5)
+    assert robot.journal.events[-1] == ("stop", {"by": "ann", "why": "a child on the track", "id": 5})
+
+
+def test_only_a_release_that_names_the_stop_frees_the_robot_for_what_begins_then(robot: Robot) -> None:
+    robot.say(PUSH)
+    robot.stop(KEPT)
+    robot.stop(Stop(engaged=False, id=6, by="bob", why=""))
+    assert robot.status.stop == robot.shelf.stop.id == 5
+    robot.stop(Stop(engaged=False, id=5, by="bob", why=""))
+    assert (robot.status.state, robot.status.stop, robot.shelf.stop) == ("idle", 0, None)
+    assert robot.journal.events[-1][0] == "release"
+    robot.say(PUSH)
+    assert robot.chip.pulses == NEUTRAL
+    robot.say(Pwm(375, 370), moving=False)
+    robot.tick()
+    robot.say(PUSH)
+    assert robot.chip.pulses != NEUTRAL
+
+
+def test_a_stop_whose_file_stays_is_not_released(robot: Robot) -> None:
+    robot.stop(KEPT)
+    robot.shelf.stuck = True
+    robot.stop(Stop(engaged=False, id=5, by="bob", why=""))
+    assert robot.status.state == "stopped"
+
+
+def test_a_late_repeat_of_a_stop_that_was_released_changes_nothing(robot: Robot) -> None:
+    for said in (KEPT, Stop(engaged=False, id=5, by="bob", why=""), KEPT):
+        robot.stop(said)
+    assert (robot.status.state, robot.shelf.stop) == ("idle", None)
+
+
+def test_it_obeys_the_watchdogs_stop_from_the_file(robot: Robot) -> None:
+    robot.say(PUSH)
+    robot.shelf.keep(KEPT)
+    robot.hear(STOP)
+    assert (robot.status.state, robot.chip.pulses) == ("stopped", NEUTRAL)
+
+
+def test_without_a_watchdog_it_ends_in_words(robot: Robot) -> None:
+    robot.tick(int(WATCHDOG_SILENCE / PERIOD), watched=False)
+    with pytest.raises(DeviceError, match=r"the watchdog has been silent for 0\.5 s; the robot is at rest"):
+        robot.tick(2, watched=False)
+
+
+def test_a_watchdog_that_is_gone_ends_it_at_once(robot: Robot) -> None:
+    with pytest.raises(DeviceError, match="the watchdog is gone"):
+        robot.hear(None)
+
+
+def test_it_reports_every_step_to_the_watchdog(robot: Robot) -> None:
+    robot.tick()
+    robot.say(PUSH)
+    first, second = robot.link.reports[-2:]
+    assert first == (robot.clock.time, robot.beat.epoch, first.since)
+    assert second == first
+    assert first.since < robot.clock.time
+
+
+def test_a_chip_that_fails_is_a_fault_until_it_is_repaired_through_neutral(robot: Robot) -> None:
+    robot.say(PUSH)
+    robot.chip.broken |= {"write", "start"}
+    robot.tick(4)
+    assert (robot.status.state, robot.status.why) == ("fault", "the chip does not take a start")
+    robot.chip.broken.clear()
+    robot.tick(round(REPAIR_EVERY / PERIOD) + 1)
+    assert (robot.status.state, robot.chip.pulses) == ("idle", NEUTRAL)
+    robot.say(PUSH)
+    assert robot.chip.pulses == NEUTRAL
+
+
+def test_a_chip_that_forgot_its_settings_is_noticed_while_writes_succeed(robot: Robot) -> None:
+    robot.chip.broken |= {"check", "start"}
+    robot.node.timers[CHECK_EVERY]()
+    robot.tick()
+    assert robot.status.state == "fault"
+
+
+def test_a_sender_whose_process_is_gone_lets_go_at_once(robot: Robot) -> None:
+    robot.say(PUSH)
+    robot.node.leaves(8)
+    assert robot.chip.pulses != NEUTRAL
+    robot.node.leaves(7)
+    assert robot.chip.pulses == NEUTRAL
+    assert (robot.status.state, robot.status.why) == ("link lost", "keyboard is gone")
+
+
+def test_the_journal_hears_every_command_with_its_verdict(robot: Robot) -> None:
+    robot.say(PUSH)
+    robot.say(PUSH, proof=Proof(1, 1, 0, 0.0, 3.0, 0.0))
+    (source, sender, command, acted, refusal, now), refused = robot.journal.commands
+    assert (source, sender, command, refusal) == ("keyboard", 7, PUSH, None)
+    assert acted == now == robot.clock.time
+    assert refused[1] == 1
+    assert "before the robot's last start" in refused[4]
+    assert ("state", {"state": "driving", "why": "keyboard drives"}) in robot.journal.events
 
 
 def test_it_steps_and_tells_on_a_clock(robot: Robot) -> None:
-    assert set(robot.node.timers) == {PERIOD, TELL_EVERY, DESCRIBE_EVERY}
     robot.tick()
     assert robot.chip.writes == [NEUTRAL]
     robot.node.timers[DESCRIBE_EVERY]()
@@ -164,7 +335,7 @@ def test_it_steps_and_tells_on_a_clock(robot: Robot) -> None:
 
 def test_a_command_is_obeyed_on_arrival_even_right_after_a_step_of_the_clock(robot: Robot) -> None:
     robot.tick()
-    robot.say(Pwm(390, 370))
+    robot.say(PUSH)
     assert robot.chip.writes[-1][1] == pytest.approx(390 * 4.08)
     assert robot.node.said["drive_status"].messages[-1].state == "driving"
     assert robot.node.infos[-1] == "driving: keyboard drives"
@@ -198,7 +369,7 @@ def test_a_flood_is_answered_at_most_200_times_a_second(robot: Robot) -> None:
 
 def test_silence_is_heard_by_the_clock(robot: Robot) -> None:
     robot.clock.pass_by(2 * AT_MOST_EVERY)
-    robot.say(Pwm(390, 370))
+    robot.say(PUSH)
     robot.tick(20)
     assert robot.chip.writes[-1] == NEUTRAL
     assert robot.node.said["drive_status"].messages[-1].state == "link lost"
@@ -208,7 +379,7 @@ def test_a_change_of_state_is_told_once(robot: Robot) -> None:
     statuses = robot.node.said["drive_status"]
     robot.tick(5)
     assert statuses.take() == []
-    robot.say(Pwm(390, 370))
+    robot.say(PUSH)
     assert [status.state for status in statuses.take()] == ["idle", "idle", "driving"]  # two with beats
     robot.tick(5)
     assert statuses.take() == []

@@ -1,0 +1,125 @@
+import os
+import socket
+from collections.abc import Iterator
+
+import pytest
+
+from zteleop.errors import DeviceError
+from zteleop.nodes import link
+from zteleop.nodes.link import DEAF, HEARS, STOP, ActuatorEnd, Report, WatchdogEnd
+
+MORE_THAN_FITS = 20_000
+
+
+def report(number: int) -> Report:
+    return Report(1000.0 + number, number, 999.5)
+
+
+class Ends:
+    def __init__(self) -> None:
+        self.dog, theirs = link.pair()
+        self.actuator = link.adopt(theirs.detach())
+
+
+@pytest.fixture
+def ends() -> Iterator[Ends]:
+    ends = Ends()
+    yield ends
+    ends.dog.close()
+    ends.actuator.close()
+
+
+def test_a_report_arrives_as_it_was_said(ends: Ends) -> None:
+    said = Report(16431.502, 2**53 - 1, 12.25)
+    ends.actuator.report(said)
+    assert ends.dog.read() == said
+
+
+def test_nothing_said_is_nothing_and_no_end(ends: Ends) -> None:
+    assert ends.dog.read() is None
+    assert ends.actuator.read() == b""
+
+
+def test_of_several_reports_the_newest_counts(ends: Ends) -> None:
+    for number in range(5):
+        ends.actuator.report(report(number))
+    assert ends.dog.read() == report(4)
+    assert ends.dog.read() is None
+
+
+@pytest.mark.parametrize("torn", [1, 8, 23, 25, 47])
+def test_a_torn_report_waits_for_its_rest(torn: int) -> None:
+    ours, theirs = socket.socketpair()
+    dog = WatchdogEnd(ours)
+    data = link._REPORT.pack(*report(1)) + link._REPORT.pack(*report(2))
+    theirs.send(data[:torn])
+    assert dog.read() == (report(1) if torn >= 24 else None)
+    theirs.send(data[torn:])
+    assert dog.read() == report(2)
+    dog.close()
+    theirs.close()
+
+
+def test_a_frozen_watchdog_neither_blocks_nor_tears_what_it_reads_later(ends: Ends) -> None:
+    for number in range(MORE_THAN_FITS):
+        ends.actuator.report(report(number))
+    heard = []
+    while newest := ends.dog.read():
+        heard.append(newest)
+    assert heard == [report(int(found.epoch)) for found in heard]
+    assert heard[-1].epoch < MORE_THAN_FITS - 1, "the test never filled the link"
+    ends.actuator.report(report(7))
+    assert ends.dog.read() == report(7)
+
+
+def test_a_frozen_actuator_never_blocks_the_watchdog(ends: Ends) -> None:
+    for _ in range(MORE_THAN_FITS):
+        ends.dog.say(HEARS)
+    assert set(ends.actuator.read()) == set(HEARS)
+
+
+def test_words_arrive_in_their_order(ends: Ends) -> None:
+    for word in (HEARS, STOP, DEAF):
+        ends.dog.say(word)
+    assert ends.actuator.read() == b"hsd"
+
+
+def test_the_actuators_end_is_noticed_after_its_last_report(ends: Ends) -> None:
+    ends.actuator.report(report(1))
+    ends.actuator.close()
+    assert ends.dog.read() == report(1)
+    with pytest.raises(EOFError):
+        ends.dog.read()
+    ends.dog.say(HEARS)
+
+
+def test_the_watchdogs_end_is_noticed_in_words(ends: Ends) -> None:
+    ends.dog.close()
+    with pytest.raises(DeviceError, match="the watchdog is gone; the actuator does not run without one"):
+        ends.actuator.read()
+    ends.actuator.report(report(1))
+
+
+def test_a_reset_is_an_end_too(ends: Ends) -> None:
+    ends.actuator.report(report(1))
+    ends.dog.close()  # with a report unread
+    with pytest.raises(DeviceError, match="gone"):
+        ends.actuator.read()
+
+
+def test_no_other_process_inherits_an_end() -> None:
+    dog, theirs = link.pair()
+    assert not os.get_inheritable(dog.fileno())
+    assert not os.get_inheritable(theirs.fileno())
+    dog.close()
+    theirs.close()
+
+
+def test_the_socket_can_be_adopted_by_its_number() -> None:
+    dog, theirs = link.pair()
+    actuator = link.adopt(theirs.detach())
+    assert isinstance(actuator, ActuatorEnd)
+    actuator.report(report(3))
+    assert dog.read() == report(3)
+    actuator.close()
+    dog.close()

@@ -1,0 +1,291 @@
+import getpass
+
+import pytest
+from unit.nodes.fakes import Node, Said
+
+from zteleop.control.stop import Latch
+from zteleop.messages import DriveStatus, Stop
+from zteleop.nodes.stopping import EVERY, PATIENCE, Stopping, person
+
+TICK = 0.01
+
+
+def idle() -> DriveStatus:
+    return shows("idle")
+
+
+def stopped(stop: int, why: str = "") -> DriveStatus:
+    return shows("stopped", stop, why)
+
+
+def shows(state: str, stop: int = 0, why: str = "") -> DriveStatus:
+    status = DriveStatus.zero()
+    status.state, status.stop, status.why = state, stop, why
+    return status
+
+
+class Asker:
+    """Somebody who asks, and a clock that his test moves."""
+
+    def __init__(self, node: Node, by: str = "ann@desk") -> None:
+        self.stopping = Stopping(node, by)
+        self.said: Said = node.said["stop"]
+        self.now = 100.0
+
+    def engage(self, why: str = "") -> Stop:
+        self.stopping.engage(self.now, why)
+        return self.said.messages[-1]
+
+    def release(self, status: DriveStatus | None) -> None:
+        self.stopping.release(status, self.now)
+
+    def heed(self, status: DriveStatus | None = None, after: float = TICK) -> bool:
+        self.now += after
+        return self.stopping.heed(status, self.now)
+
+    def wait(self, seconds: float, status: DriveStatus | None = None) -> None:
+        for _ in range(round(seconds / TICK)):
+            self.heed(status)
+
+    @property
+    def outcome(self) -> tuple[str, str]:
+        return self.stopping.state, self.stopping.words
+
+
+@pytest.fixture
+def asker(node: Node) -> Asker:
+    return Asker(node)
+
+
+def test_who_never_asked_says_nothing(asker: Asker) -> None:
+    asker.wait(3.0, idle())
+    assert asker.said.messages == []
+    assert asker.outcome == ("", "")
+    assert not asker.stopping.unanswered
+
+
+def test_a_stop_is_said_at_once_and_twenty_times_a_second_until_it_is_shown(asker: Asker) -> None:
+    stop = asker.engage("a cat")
+    assert asker.said.take() == [Stop(True, stop.id, "ann@desk", "a cat")]
+    asker.wait(1.0, idle())
+    assert asker.said.take() == [stop] * round(1.0 / EVERY)
+    assert asker.stopping.state == "pending"
+    assert asker.heed(stopped(stop.id))
+    assert asker.outcome == ("done", "archangel is stopped (acknowledged within 1010 ms)")
+    asker.wait(1.0, stopped(stop.id))
+    assert asker.said.messages == []
+
+
+def test_a_lost_acknowledgement_is_asked_for_again(asker: Asker) -> None:
+    stop = asker.engage()
+    asker.wait(1.5)
+    assert not asker.heed(None)
+    assert asker.heed(stopped(stop.id))
+    assert asker.stopping.state == "done"
+
+
+def test_each_press_has_an_id_of_its_own_that_is_never_nobodys(asker: Asker) -> None:
+    ids = {asker.engage().id for _ in range(50)}
+    assert len(ids) == 50
+    assert all(0 < number < 2**53 for number in ids)
+
+
+def test_a_stop_that_nobody_acknowledges_says_what_to_do(asker: Asker) -> None:
+    asker.engage()
+    asker.wait(PATIENCE - 2 * TICK, idle())
+    assert asker.stopping.state == "pending"
+    asker.wait(0.05, idle())
+    assert asker.outcome == (
+        "failed",
+        "archangel has not acknowledged the stop within 2 s: cut its power, or run zteleop neutral on it",
+    )
+    assert asker.stopping.unanswered
+    asker.said.take()
+    asker.wait(1.0)
+    assert asker.said.messages == []
+
+
+def test_an_answer_that_comes_late_is_an_answer(asker: Asker) -> None:
+    stop = asker.engage()
+    asker.wait(3.0)
+    assert asker.stopping.unanswered
+    asker.heed(stopped(stop.id + 1))
+    assert asker.stopping.unanswered
+    asker.heed(stopped(stop.id))
+    assert not asker.stopping.unanswered
+    assert asker.outcome == ("done", "archangel is stopped (acknowledged late)")
+
+
+def test_anothers_stop_that_came_later_is_one_as_well(asker: Asker) -> None:
+    asker.heed(idle())
+    stop = asker.engage()
+    assert asker.heed(stopped(stop.id ^ 1))
+    assert asker.stopping.state == "done"
+    assert "by somebody else as well" in asker.stopping.words
+
+
+@pytest.mark.parametrize("seen_before", [True, False])
+def test_anothers_earlier_stop_is_no_acknowledgement_of_ours(asker: Asker, seen_before: bool) -> None:
+    if seen_before:
+        asker.heed(stopped(7))
+    stop = asker.engage()
+    asker.said.take()
+    asker.wait(0.5, stopped(7))
+    assert asker.stopping.state == "pending"
+    assert asker.said.messages
+    assert asker.heed(stopped(stop.id))
+    assert asker.stopping.state == "done"
+
+
+def test_a_robot_that_shows_but_an_earlier_stop_is_stopped_all_the_same(asker: Asker) -> None:
+    asker.engage()
+    asker.wait(3.0, stopped(7, "stopped by bob"))
+    assert asker.stopping.state == "done"
+    assert asker.stopping.words.endswith("which it has not acknowledged: stopped by bob")
+
+
+def test_a_robot_seen_stopped_long_ago_and_unheard_now_has_not_acknowledged(asker: Asker) -> None:
+    asker.heed(stopped(7))
+    asker.engage()
+    asker.wait(3.0)
+    assert asker.stopping.unanswered
+
+
+def test_whoever_begins_to_listen_hears_it_at_once(asker: Asker) -> None:
+    asker.said.matched = False
+    stop = asker.engage()
+    asker.heed(None, after=0.001)
+    assert len(asker.said.take()) == 1
+    asker.said.matched = True
+    asker.heed(None, after=0.001)
+    assert asker.said.take() == [stop]
+    asker.heed(None, after=0.001)
+    assert asker.said.take() == []
+
+
+def test_a_release_names_the_stop_that_was_seen(asker: Asker) -> None:
+    asker.release(stopped(7))
+    asker.wait(1.0, stopped(7))
+    assert set(map(repr, asker.said.take())) == {repr(Stop(False, 7, "ann@desk", ""))}
+    assert asker.heed(idle())
+    assert asker.outcome == ("done", "archangel may drive again, from neutral (acknowledged within 1010 ms)")
+
+
+def test_a_stop_said_by_hand_has_no_number_and_can_be_released(asker: Asker) -> None:
+    asker.release(stopped(0))
+    assert asker.said.take() == [Stop(False, 0, "ann@desk", "")]
+    asker.heed(idle())
+    assert asker.stopping.state == "done"
+
+
+def test_a_release_never_touches_a_newer_stop(asker: Asker) -> None:
+    asker.release(stopped(7))
+    asker.said.take()
+    assert asker.heed(stopped(8, "stopped by bob"))
+    assert asker.outcome == ("failed", "archangel was stopped anew meanwhile: stopped by bob")
+    asker.wait(1.0, stopped(8))
+    assert asker.said.messages == []
+    assert not asker.stopping.unanswered
+
+
+@pytest.mark.parametrize("state", ["fault", "starting"])
+def test_a_robot_released_and_kept_at_rest_by_something_else_says_so(asker: Asker, state: str) -> None:
+    asker.release(stopped(7))
+    asker.heed(shows(state, why="the chip is silent"))
+    assert asker.outcome == (
+        "done",
+        "the stop of archangel is over, but it is kept at rest: the chip is silent",
+    )
+
+
+def test_a_release_that_nobody_acknowledges_leaves_it_stopped(asker: Asker) -> None:
+    asker.release(stopped(7))
+    asker.wait(3.0, stopped(7))
+    assert asker.stopping.state == "failed"
+    assert asker.stopping.words.endswith("the release within 2 s; take it as stopped, and try again")
+
+
+def test_what_is_not_stopped_needs_no_release(asker: Asker) -> None:
+    asker.release(shows("driving"))
+    assert asker.outcome == ("done", "archangel is not stopped")
+    assert asker.said.messages == []
+
+
+def test_a_robot_that_is_not_heard_is_not_released(asker: Asker) -> None:
+    asker.release(None)
+    asker.wait(1.0, stopped(7))
+    assert asker.outcome == ("failed", "archangel is not heard, so nothing is released; is it on?")
+    assert asker.said.messages == []
+
+
+@pytest.mark.parametrize("status", [None, idle()])
+def test_a_release_does_not_silence_a_stop_under_way(asker: Asker, status: DriveStatus | None) -> None:
+    stop = asker.engage()
+    asker.said.take()
+    asker.release(status)
+    asker.wait(0.2)
+    assert set(map(repr, asker.said.take())) == {repr(stop)}
+
+
+def test_a_stop_takes_the_place_of_a_release_under_way(asker: Asker) -> None:
+    asker.release(stopped(7))
+    stop = asker.engage()
+    asker.said.take()
+    asker.wait(0.2, idle())
+    assert set(map(repr, asker.said.take())) == {repr(stop)}
+    assert asker.stopping.state == "pending"
+
+
+def test_a_release_asked_for_twice_gives_up_when_the_first_does(asker: Asker) -> None:
+    asker.release(stopped(7))
+    asker.wait(1.5, stopped(7))
+    asker.release(stopped(7))
+    asker.wait(0.6, stopped(7))
+    assert asker.stopping.state == "failed"
+
+
+def test_words_no_reader_would_take_do_not_cost_the_stop(node: Node) -> None:
+    stop = Asker(node, by="ann\udcff" + "n" * 300).engage("w" * 300 + "\ud800")
+    assert len(stop.by) == len(stop.why) == 200
+    (stop.by + stop.why).encode()
+
+
+def test_it_talks_with_the_rule_of_the_robot(node: Node) -> None:
+    """Two people and a latch, over a network that loses every other word."""
+    ann, bob = Asker(node, "ann@desk"), Asker(node, "bob@sofa")
+    latch = Latch()
+
+    def status() -> DriveStatus:
+        return stopped(latch.stop.id) if latch.stop else idle()
+
+    def talk(asker: Asker, other: Asker) -> None:
+        for turn in range(300):
+            for said in node.said["stop"].take()[turn % 2 :: 2]:
+                latch.obey(said)
+            other.heed(status())
+            if asker.heed(status() if turn % 3 else None):
+                return
+
+    ann.engage()
+    talk(ann, bob)
+    bob.engage()
+    talk(bob, ann)
+    assert ann.stopping.state == bob.stopping.state == "done"
+    ann.release(status())
+    talk(ann, bob)
+    assert ann.stopping.state == "done"
+    assert latch.stop is None
+
+
+def test_a_person_is_user_and_host(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(getpass, "getuser", lambda: "ann")
+    monkeypatch.setattr("socket.gethostname", lambda: "desk")
+    assert person() == "ann@desk"
+
+
+def test_a_person_without_a_name_can_stop_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    def unknown() -> str:
+        raise KeyError("uid not found")
+
+    monkeypatch.setattr(getpass, "getuser", unknown)
+    assert person().startswith("somebody@")
