@@ -1,4 +1,4 @@
-"""docs/checklist.md names tests; each of them is there."""
+"""The checklist and the safety argument name tests; each of them is there."""
 
 import re
 from pathlib import Path
@@ -6,7 +6,11 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-NAMED = re.findall(r"`(tests/\S+)::(\w+)`", (ROOT / "docs/checklist.md").read_text())
+NAMED = [
+    named
+    for page in ("docs/checklist.md", "docs/safety.md")
+    for named in re.findall(r"`(tests/\S+)::(\w+)`", (ROOT / page).read_text())
+]
 
 
 @pytest.mark.parametrize(("path", "name"), NAMED)
@@ -14,5 +18,5 @@ def test_a_line_is_done_when_its_test_is_there(path: str, name: str) -> None:
     assert f"def {name}(" in (ROOT / path).read_text()
 
 
-def test_the_checklist_names_tests() -> None:
-    assert len(NAMED) > 50
+def test_the_pages_name_tests() -> None:
+    assert len(NAMED) > 70

@@ -83,12 +83,11 @@ def run(arguments: argparse.Namespace) -> int:
 
 @contextmanager
 def _join(robot: str, bus: BusSettings) -> Iterator[Node]:
-    """Join the bus as the only watchdog of that robot; of two that start at once, one goes on."""
+    """Join the bus as the only watchdog of that robot."""
     with open_session(bus, settle=True, door=True) as session:
         _only_one(presence.holders(session, robot, "watchdog"), robot)
         with Node("watchdog", robot, session=session) as node:
-            holders = presence.holders(session, robot, "watchdog")
-            _only_one([holder for holder in holders if holder < presence.process()], robot)
+            _yield_to_the_first(presence.holders(session, robot, "watchdog"), robot)
             yield node
 
 
@@ -97,6 +96,11 @@ def _only_one(holders: list[str], robot: str) -> None:
         raise DeviceError(
             f"robot {robot} has an actuator already: {', '.join(holders)}; stop it, or say --robot"
         )
+
+
+def _yield_to_the_first(holders: list[str], robot: str) -> None:
+    """Of two that start at once, one goes on."""
+    _only_one([holder for holder in holders if holder < presence.process()], robot)
 
 
 def _switch(node: Node, pin: OutputEnable | None) -> Callable[[bool], None]:

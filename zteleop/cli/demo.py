@@ -1,4 +1,5 @@
 import argparse
+import os
 import secrets
 import socket
 import subprocess
@@ -97,8 +98,14 @@ class Teller:
 def child(arguments: list[str], log: IO[str]) -> Iterator["subprocess.Popen[bytes]"]:
     """Run a verb as a process that ends with this one, however this one ends."""
     command = [sys.executable, "-m", "zteleop", *arguments, "--with-parent"]
+    keeps = {"XDG_STATE_HOME": str(Path(log.name).parent)}  # a demo leaves nothing behind
     process = subprocess.Popen(
-        command, stdin=subprocess.PIPE, stdout=log, stderr=subprocess.STDOUT, start_new_session=True
+        command,
+        stdin=subprocess.PIPE,
+        stdout=log,
+        stderr=subprocess.STDOUT,
+        start_new_session=True,
+        env=os.environ | keeps,
     )
     try:
         yield process

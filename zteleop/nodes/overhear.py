@@ -54,8 +54,9 @@ class Overhearing:
 
     def _listen_for_stops(self, now: float) -> Stop | None:
         for received in self._stops.take():
-            if received.message.engaged and self._latch.obey(received.message):
-                self._asked = (received.message, now)
+            said = received.message
+            if self._latch.obey(said):
+                self._asked = (said, now) if said.engaged else None
         kept = self._stop_file.exists()
         if kept:
             self._asked = None

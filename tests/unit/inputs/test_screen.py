@@ -88,7 +88,7 @@ def test_an_alarm_is_whole_and_red_in_any_window(car, columns, rows):
 
 
 def test_on_a_single_line_an_alarm_stands_before_what_is_driven(car):
-    assert shown(board(car, note=ALARM)._replace(alarm=True), 60, 1) == [f"● driving  {ALARM}"[:60]]
+    assert shown(board(car, note=ALARM)._replace(alarm=True), 40, 1) == [f"● driving  {ALARM}"[:40]]
 
 
 def test_a_small_window_keeps_what_matters_most(car):

@@ -7,9 +7,10 @@ from zteleop.control.mixer import Differential
 from zteleop.control.report import describe
 from zteleop.control.servo import Servo
 from zteleop.control.stick import Speeds, Stick
-from zteleop.errors import ConfigError
+from zteleop.errors import BusError, ConfigError
 from zteleop.messages import DriveStatus, Log, Odometry, Pwm, Twist, Vehicle
-from zteleop.nodes.teleop import LINK_LOSS, PERIOD, SHOW_AFTER, Teleop, View
+from zteleop.nodes.stopping import PATIENCE
+from zteleop.nodes.teleop import LINK_LOSS, NEWS, PERIOD, SHOW_AFTER, Teleop, View
 
 CAR = describe(DriveSettings(), 4.08)
 SLOW_CAR = describe(DriveSettings(), 4.1)
@@ -25,6 +26,7 @@ class Device:
     def __init__(self, drive: str = "hold") -> None:
         self.drive, self.speeds, self.finished = drive, Speeds(), False
         self.position, self.acted = Stick(), False
+        self.stop_wish: bool | None = None
         self.fitted: list[Vehicle] = []
         self.resets: list[float] = []
         self.file: int | None = None
@@ -54,7 +56,17 @@ class Desk:
         self.node, self.clock, self.device = node, clock, device
         self.views: list[View] = []
         self.teleop = Teleop(node, device, "keyboard", vehicle, self.views.append)
-        self.twists, self.pwms = node.said["cmd_vel"], node.said["pwm"]
+        self.twists, self.pwms, self.stops = node.said["cmd_vel"], node.said["pwm"], node.said["stop"]
+
+    def hear_state(self, state: str, stop: int = 0) -> None:
+        status = DriveStatus.zero()
+        status.state, status.stop, status.why = state, stop, f"it is {state}"
+        self.node.inboxes["drive_status"].waiting.append(status)
+
+    def hear_log(self, text: str) -> None:
+        log = Log.zero()
+        log.name, log.msg = "actuator", text
+        self.node.inboxes["log"].waiting.append(log)
 
     def tick(self, times: int = 1, beats: bool = True) -> None:
         for _ in range(times):
@@ -264,3 +276,128 @@ def test_the_robot_is_ours_when_it_says_so(desk: Desk, operator: str, ours: bool
     desk.node.inboxes["drive_status"].waiting.append(status)
     desk.tick()
     assert desk.views[-1].ours is ours
+
+
+def test_a_stop_is_passed_on_once_repeated_and_lets_go(desk: Desk, clock: Clock) -> None:
+    desk.tick(3)
+    desk.device.resets.clear()
+    desk.device.stop_wish = True
+    desk.tick()
+    stop = desk.stops.messages[0]
+    assert (stop.engaged, stop.why) == (True, "")
+    assert "@" in stop.by
+    assert desk.device.stop_wish is None
+    assert desk.device.resets == [clock.time]
+    desk.tick(9)
+    assert desk.stops.take() == [stop] * 10
+    desk.hear_state("stopped", stop.id)
+    desk.tick(9)
+    assert desk.stops.take() == []
+
+
+def test_a_stop_says_neutral_with_it(desk: Desk) -> None:
+    desk.device.position = Stick(1.0, 0.0, deadman=True)
+    desk.tick(3)
+    desk.twists.take()
+    desk.device.reset = lambda now: setattr(desk.device, "position", Stick())
+    desk.device.stop_wish = True
+    desk.tick(1)
+    assert len(desk.stops.take()) == 1
+    assert [said.twist for said in desk.twists.take()] == [Twist.planar()]
+
+
+def test_the_answer_to_a_stop_is_the_note_for_a_while(desk: Desk) -> None:
+    desk.device.stop_wish = True
+    desk.tick()
+    assert desk.views[-1].note == "asking archangel to stop"
+    desk.hear_state("stopped", desk.stops.messages[0].id)
+    desk.tick()
+    desk.hear_log("stopped: by ann")
+    desk.tick()
+    assert desk.views[-1].note == "archangel is stopped (acknowledged within 50 ms)"
+    desk.tick(round(NEWS / PERIOD))
+    assert desk.views[-1].note == "actuator: stopped: by ann"
+    assert not any(view.alarm for view in desk.views)
+
+
+def test_a_stop_that_nobody_acknowledges_stays_an_alarm_until_somebody_does(desk: Desk) -> None:
+    desk.device.stop_wish = True
+    desk.tick(round((PATIENCE + NEWS + 1) / PERIOD), beats=False)
+    desk.hear_log("anything")
+    desk.tick(beats=False)
+    assert desk.views[-1].alarm
+    assert desk.views[-1].note.startswith("archangel has not acknowledged the stop within 2 s: cut its power")
+    desk.device.stop_wish = True
+    desk.tick()
+    assert not desk.views[-1].alarm
+    desk.hear_state("stopped", desk.stops.messages[-1].id)
+    desk.tick()
+    assert not desk.views[-1].alarm
+
+
+def test_a_release_names_the_stop_on_the_screen(desk: Desk) -> None:
+    desk.hear_state("stopped", 7)
+    desk.tick()
+    desk.device.stop_wish = False
+    desk.tick(3)
+    assert {(said.engaged, said.id) for said in desk.stops.take()} == {(False, 7)}
+    assert desk.views[-1].note == "asking archangel to end its stop"
+    desk.hear_state("idle")
+    desk.tick()
+    assert desk.views[-1].note == "archangel may drive again, from neutral (acknowledged within 150 ms)"
+    assert desk.stops.messages == []
+
+
+def test_a_robot_that_is_not_heard_is_not_released(desk: Desk) -> None:
+    desk.hear_state("stopped", 7)
+    desk.tick(round(LINK_LOSS / PERIOD) + 2, beats=False)
+    desk.device.stop_wish = False
+    desk.tick(beats=False)
+    assert desk.stops.messages == []
+    assert desk.views[-1].note.startswith("archangel is not heard")
+    assert not desk.views[-1].alarm
+
+
+@pytest.mark.parametrize("state", ["stopped", "fault", "starting"])
+def test_a_robot_kept_at_rest_finds_the_device_at_rest_and_again_when_it_is_free(
+    desk: Desk, clock: Clock, state: str
+) -> None:
+    desk.hear_state("driving")
+    desk.tick(3)
+    desk.device.resets.clear()
+    for _ in range(2):
+        desk.hear_state(state, 7)
+        desk.tick(3)
+        assert len(desk.device.resets) == 1
+    desk.hear_state("idle")
+    desk.tick()
+    assert desk.device.resets[1:] == [clock.time]
+    for calm in ("driving", "operator idle", "idle", "link lost"):
+        desk.hear_state(calm)
+        desk.tick()
+    assert len(desk.device.resets) == 2
+
+
+def test_whoever_stops_and_leaves_is_heard_first(desk: Desk) -> None:
+    desk.device.stop_wish, desk.device.finished = True, True
+    desk.tick(5)
+    assert not desk.node.stopped
+    desk.hear_state("stopped", desk.stops.messages[0].id)
+    desk.tick()
+    assert desk.node.stopped
+
+
+def test_whoever_leaves_after_a_stop_that_nobody_acknowledged_is_told(desk: Desk) -> None:
+    desk.device.stop_wish, desk.device.finished = True, True
+    desk.node.spin = lambda: desk.tick(round(PATIENCE / PERIOD) + 2, beats=False)
+    with pytest.raises(BusError, match="archangel has not acknowledged the stop"):
+        desk.teleop.run()
+    assert desk.node.stopped
+
+
+def test_what_was_heard_before_a_stop_does_not_answer_it(desk: Desk) -> None:
+    desk.hear_state("stopped", 7)
+    desk.tick()
+    desk.device.stop_wish = True
+    desk.tick(round(PATIENCE / PERIOD) + 2, beats=False)
+    assert desk.views[-1].alarm

@@ -1,0 +1,203 @@
+import pytest
+from unit.nodes.fakes import Chip
+
+from zteleop.control.drive import Drive, DriveSettings
+from zteleop.control.proof import Prover
+from zteleop.errors import DeviceError
+from zteleop.messages import Beat, Pwm
+from zteleop.nodes.output import FAILED_STEPS, REPAIR_EVERY, Output
+
+NEUTRAL = {0: 1509.6, 1: 1530.0}
+PULSES = {0: 1509.6, 1: 1600.0}
+
+
+class Bench:
+    """A drive that wants to move, and its output."""
+
+    def __init__(self, arming: float = 0.0) -> None:
+        self.now = 100.0
+        self.chip = Chip(arming)
+        self.drive = Drive(DriveSettings(), 4.08, 1, self.now)
+        self.said: list[str] = []
+        self.output = Output(self.chip, self.drive, self.said.append)
+        self.prover = Prover(7)
+        self.output.start(self.now)
+
+    @property
+    def state(self) -> str:
+        return self.drive.step(self.now).state
+
+    def push(self) -> None:
+        """Claim the robot, as somebody who begins now and holds on."""
+        beat = Beat(1, self.now)
+        self.prover.act(beat)
+        self.drive.receive("keyboard", Pwm(390, 370), self.prover.prove(beat, True, self.now), self.now)
+
+    def step(self, seconds: float = 0.02) -> str:
+        self.now += seconds
+        self.output.tend(self.now)
+        step = self.drive.step(self.now)
+        self.output.write(step.pulse_us, self.now)
+        return step.state
+
+    def break_down(self) -> None:
+        self.chip.broken |= {"write", "check", "start"}
+        self.output.check(self.now)
+
+
+@pytest.fixture
+def bench() -> Bench:
+    bench = Bench()
+    bench.step()
+    bench.step()
+    return bench
+
+
+def test_it_starts_at_neutral_and_writes_what_it_is_told(bench: Bench) -> None:
+    assert (bench.chip.log[0], bench.chip.writes[0]) == ("start", NEUTRAL)
+    bench.output.write(PULSES, bench.now)
+    assert bench.chip.pulses == PULSES
+    bench.output.rest()
+    assert bench.chip.pulses == NEUTRAL
+    bench.output.close()
+    assert bench.chip.log[-1] == "close"
+
+
+def test_a_chip_that_does_not_come_up_is_an_error() -> None:
+    chip = Chip()
+    chip.broken.add("start")
+    output = Output(chip, Drive(DriveSettings(), 4.08, 1, 0.0), print)
+    with pytest.raises(DeviceError):
+        output.start(0.0)
+
+
+def test_neutral_is_held_while_the_esc_arms_after_every_start() -> None:
+    bench = Bench(arming=2.0)
+    assert bench.step(1.99) == "starting"
+    assert bench.drive.holds.strongest.why == "neutral for 2 s while the ESC arms"
+    bench.push()
+    assert bench.step(0.02) == "idle"
+    bench.push()
+    assert bench.step() == "idle", "what began while it armed moves it"
+
+
+def test_only_failed_steps_in_a_row_are_a_fault(bench: Bench) -> None:
+    for _ in range(3):
+        bench.chip.broken.add("write")
+        for _ in range(FAILED_STEPS - 1):
+            bench.step()
+        bench.chip.broken.clear()
+        bench.step()
+        assert bench.state == "idle"
+    bench.chip.broken.add("write")
+    for _ in range(FAILED_STEPS):
+        bench.step()
+    assert bench.state == "fault"
+
+
+def test_a_fault_is_said_in_words(bench: Bench) -> None:
+    bench.chip.broken.add("write")
+    for _ in range(FAILED_STEPS):
+        bench.step()
+    assert bench.said == ["the chip is at fault: the chip does not take a write"]
+    assert bench.drive.holds.strongest.why == "the chip does not take a write"
+
+
+def test_a_chip_that_forgot_is_a_fault_although_writes_succeed(bench: Bench) -> None:
+    bench.chip.broken.add("check")
+    bench.output.check(bench.now)
+    assert bench.state == "fault"
+    assert bench.chip.log.count("check") == 2
+
+
+def test_a_single_disturbed_check_is_no_fault(bench: Bench) -> None:
+    def disturbed() -> None:
+        bench.chip.check = lambda: None
+        raise DeviceError("noise")
+
+    bench.chip.check = disturbed
+    bench.output.check(bench.now)
+    assert (bench.state, bench.said) == ("idle", [])
+
+
+def test_while_broken_nothing_but_neutral_is_written(bench: Bench) -> None:
+    bench.break_down()
+    bench.chip.broken -= {"write", "check"}
+    bench.chip.log.clear()
+    for _ in range(50):
+        bench.push()
+        bench.step()
+        bench.output.write(PULSES, bench.now)
+        bench.output.check(bench.now)
+    assert set(bench.chip.log) == {"start"}
+    assert bench.chip.writes[-1] == NEUTRAL
+
+
+def test_it_is_repaired_at_once_and_then_ten_times_a_second(bench: Bench) -> None:
+    bench.break_down()
+    tries = []
+    for _ in range(100):
+        count = bench.chip.log.count("start")
+        bench.step(0.01)
+        if bench.chip.log.count("start") > count:
+            tries.append(bench.now)
+    assert tries[0] == pytest.approx(100.05)
+    gaps = [b - a for a, b in zip(tries, tries[1:], strict=False)]
+    assert all(REPAIR_EVERY - 1e-9 <= gap <= REPAIR_EVERY + 0.011 for gap in gaps)
+    assert len(tries) >= 9
+
+
+def test_the_newest_reason_of_a_fault_is_shown(bench: Bench) -> None:
+    bench.chip.broken |= {"write", "start"}
+    for _ in range(FAILED_STEPS + 1):
+        bench.step()
+    assert bench.drive.holds.strongest.why == "the chip does not take a start"
+
+
+def test_repaired_it_is_at_neutral_and_what_was_held_moves_nothing(bench: Bench) -> None:
+    bench.push()
+    bench.step()
+    assert bench.chip.pulses != NEUTRAL
+    bench.break_down()
+    bench.push()
+    bench.step(0.2)
+    bench.chip.broken.clear()
+    bench.push()
+    assert bench.step(0.2) == "idle"
+    assert bench.said[-1] == "the chip is back, at neutral"
+    for _ in range(20):
+        bench.push()
+        bench.step()
+    assert bench.chip.pulses == NEUTRAL
+    bench.step(1.0)  # let go
+    bench.push()
+    bench.step()
+    assert bench.chip.pulses != NEUTRAL
+
+
+def test_repaired_the_esc_arms_once_more() -> None:
+    bench = Bench(arming=2.0)
+    assert bench.step(2.0) == "idle"
+    bench.break_down()
+    assert bench.step() == "fault"
+    bench.chip.broken.clear()
+    assert bench.step(0.2) == "starting"
+    assert bench.step(1.98) == "starting"
+    assert bench.step(0.04) == "idle"
+
+
+def test_failures_before_a_repair_do_not_count_after_it(bench: Bench) -> None:
+    bench.chip.broken |= {"write"}
+    for _ in range(FAILED_STEPS):
+        bench.step()
+    assert bench.state == "fault"
+    bench.step(0.2)  # repaired: it takes a start
+    assert bench.state == "idle"
+    bench.step()
+    assert bench.state == "idle"
+
+
+def test_neutral_that_is_not_taken_at_the_end_is_an_error(bench: Bench) -> None:
+    bench.chip.broken.add("write")
+    with pytest.raises(DeviceError):
+        bench.output.rest()

@@ -1,0 +1,488 @@
+import signal
+from types import SimpleNamespace
+
+import pytest
+from unit.bus.fakes import Clock
+from unit.nodes.fakes import Chip, Node, Shelf
+
+from zteleop.bus.subscription import Received
+from zteleop.control.drive import DriveSettings
+from zteleop.control.judge import GRACE
+from zteleop.control.proof import Prover
+from zteleop.errors import DeviceError
+from zteleop.messages import Beat, Message, Pwm, Stop, WatchdogStatus
+from zteleop.nodes import service
+from zteleop.nodes import watchdog as module
+from zteleop.nodes.link import DEAF, HEARS, STOP, Report
+from zteleop.nodes.watchdog import (
+    FAREWELL,
+    LOOK_EVERY,
+    PERIOD,
+    REST_PATIENCE,
+    SILENCE,
+    SILENCE_AT_START,
+    TELL_EVERY,
+    Watchdog,
+)
+
+NEUTRAL = {0: 1509.6, 1: 1530.0}
+MOVING = {0: 1600.0, 1: 1530.0}
+PUSH = Pwm(390, 370)
+PAUSE = 0.1
+FILE = 9
+EPOCH = 1
+
+
+class Child:
+    """An actuator that reports a step every 20 ms while it lives and is not frozen."""
+
+    def __init__(self, clock: Clock, hand: Chip) -> None:
+        self.clock, self.hand = clock, hand
+        self.starts, self.started = 0, float("-inf")
+        self.newest: Report | None = None
+        self.link: SimpleNamespace | None = None
+        self.words: list[bytes] = []
+        self.alive = self.dead = self.frozen = False
+        self.moves = False
+        """It writes motion, whatever anybody says."""
+        self.stuck = False
+        """It cannot be killed: its write is stuck in the kernel."""
+        self.beats = True
+        """Its beats arrive on the bus."""
+        self.code: int | None = None
+        self.log: list[str] = []
+
+    @property
+    def ready(self) -> bool:
+        return self.newest is not None
+
+    @property
+    def gone(self) -> bool:
+        return not self.alive
+
+    def start(self, now: float) -> None:
+        self.starts, self.started, self.newest = self.starts + 1, now, None
+        self.alive, self.dead = True, False
+        self.link = SimpleNamespace(fileno=lambda: FILE, say=self.words.append)
+        self.log.append("start")
+
+    def hear(self) -> None:
+        if self.dead:
+            raise EOFError
+        if not self.frozen:
+            self.newest = Report(self.clock.time, EPOCH, 999.0)
+
+    def silence(self, now: float) -> float:
+        return now - (self.newest.stepped if self.newest else self.started)
+
+    def ask_to_end(self) -> None:
+        self.log.append("ask")
+
+    def end(self, patience: float) -> int | None:
+        self.log.append(f"end {patience:g}")
+        self.alive, self.link = self.stuck, None
+        return None if self.stuck else self.code
+
+    def pause(self, now: float) -> float:
+        return PAUSE
+
+
+class Kennel:
+    """A watchdog, what it watches, and the time."""
+
+    def __init__(self, node: Node, clock: Clock) -> None:
+        self.node, self.clock = node, clock
+        self.hand, self.shelf = Chip(), Shelf()
+        self.hand.pulses = dict(NEUTRAL)
+        self.child = Child(clock, self.hand)
+        self.enabled: list[bool] = []
+        self.dog = Watchdog(
+            node, DriveSettings(), self.hand, self.child, self.shelf, self.enabled.append
+        )
+        self.prover = Prover(7)
+
+    def wake(self) -> None:
+        """Start, and live until the actuator steps."""
+        self.dog.run()
+        self.live(1.0)
+        self.hand.log.clear()
+
+    def live(self, seconds: float) -> None:
+        """Let the actuator report, and the watchdog do all that is due."""
+        for _ in range(round(seconds / PERIOD)):
+            if self.child.alive and (self.child.dead or not self.child.frozen):
+                self.hear_actuator()
+            if self.child.alive and not self.child.frozen and self.child.beats:
+                self.node.inboxes["beat"].waiting.clear()  # its ring holds one
+                self.hear("beat", Beat(EPOCH, self.clock.time))
+            if self.child.alive and self.child.moves:
+                self.hand.pulses = dict(MOVING)
+            self.node.live(self.clock, PERIOD)
+
+    def hear_actuator(self) -> None:
+        if FILE in self.node.watched:
+            self.node.watched[FILE]()
+
+    def hear(self, topic: str, message: Message) -> None:
+        """Hear a message; a command is one that moves, by somebody who acts."""
+        proof = None
+        if topic.startswith("pwm"):
+            beat = Beat(EPOCH, self.clock.time)
+            self.prover.act(beat)
+            proof = self.prover.prove(beat, True, self.clock.time)
+        key = f"robot/archangel/{topic}"
+        self.node.inboxes[topic].waiting.append(Received(message, key, proof, self.clock.time))
+
+    def until(self, condition: object, patience: float = 10.0) -> float:
+        """Live until something is so; return after how long."""
+        began = self.clock.time
+        while not condition():
+            assert self.clock.time < began + patience, "it never came"
+            self.live(PERIOD)
+        return self.clock.time - began
+
+    @property
+    def restarted(self) -> bool:
+        return self.child.starts == 2
+
+    @property
+    def resting(self) -> bool:
+        return any("is gone" in error for error in self.node.errors)
+
+    @property
+    def status(self) -> WatchdogStatus:
+        self.node.timers[TELL_EVERY]()
+        return self.node.said["watchdog"].messages[-1]
+
+
+@pytest.fixture
+def told(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """What systemd is told."""
+    told: list[str] = []
+    monkeypatch.setattr(service, "notify", told.append)
+    return told
+
+
+@pytest.fixture
+def handlers(monkeypatch: pytest.MonkeyPatch) -> dict[int, object]:
+    handlers: dict[int, object] = {}
+    monkeypatch.setattr(signal, "signal", handlers.__setitem__)
+    return handlers
+
+
+@pytest.fixture
+def kennel(
+    node: Node,
+    clock: Clock,
+    told: list[str],
+    handlers: dict[int, object],
+    monkeypatch: pytest.MonkeyPatch,
+) -> Kennel:
+    monkeypatch.setattr(module, "time", SimpleNamespace(sleep=clock.pass_by))
+    return Kennel(node, clock)
+
+
+@pytest.fixture
+def awake(kennel: Kennel, monkeypatch: pytest.MonkeyPatch) -> Kennel:
+    """A watchdog at work, whose end is another test's subject."""
+    with monkeypatch.context() as patch:
+        patch.setattr(Watchdog, "_finish", lambda dog: None)
+        kennel.wake()
+    return kennel
+
+
+def test_it_starts_the_actuator_and_lets_the_outputs_through_once_that_steps(
+    awake: Kennel, told: list[str]
+) -> None:
+    assert (awake.child.starts, awake.enabled) == (1, [True])
+    assert told.count("READY=1") == 1
+    silence = awake.status.silence
+    assert awake.status == WatchdogStatus("watching", "the actuator steps", silence, False, False, 0, 0)
+    assert 0.0 <= silence <= 2 * PERIOD
+
+
+def test_it_says_20_times_a_second_that_it_watches_and_hears(awake: Kennel, told: list[str]) -> None:
+    awake.child.words.clear()
+    told.clear()
+    awake.live(1.0)
+    assert len(awake.child.words) == pytest.approx(20, abs=1)
+    assert set(awake.child.words) == {HEARS}
+    assert len(told) == pytest.approx(20, abs=1)
+
+
+def test_it_says_when_it_does_not_hear_the_actuator_on_the_bus(awake: Kennel) -> None:
+    awake.live(0.1)
+    awake.child.beats = False
+    awake.live(0.7)
+    assert awake.child.words[-1] == DEAF
+
+
+def test_an_actuator_that_is_well_is_left_alone(awake: Kennel) -> None:
+    awake.live(20.0)
+    assert (awake.child.starts, awake.node.errors, awake.shelf.stop) == (1, [], None)
+    assert set(awake.hand.log) == {"read"}
+
+
+def test_a_silent_actuator_is_killed_after_a_quarter_of_a_second(awake: Kennel) -> None:
+    awake.hand.pulses = dict(MOVING)
+    awake.hear("pwm/keyboard", PUSH)
+    awake.child.frozen = True
+    seconds = awake.until(lambda: awake.resting)
+    assert SILENCE < seconds + PERIOD
+    assert seconds <= SILENCE + 2 * PERIOD
+    assert awake.child.log[-1] == "end 0"
+    assert awake.hand.pulses == NEUTRAL
+    assert "it was silent for 0.2" in awake.node.errors[-1]
+
+
+def test_a_starting_actuator_has_five_seconds(kennel: Kennel, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Watchdog, "_finish", lambda dog: None)
+    kennel.child.frozen = True
+    kennel.dog.run()
+    assert kennel.until(lambda: kennel.resting) == pytest.approx(SILENCE_AT_START, abs=2 * PERIOD)
+
+
+def test_an_actuator_that_ends_is_noticed_at_once_and_neutral_comes_first(awake: Kennel) -> None:
+    awake.hand.pulses = dict(MOVING)
+    awake.child.dead = True
+    pulses_at_the_wait: list[object] = []
+    end = awake.child.end
+    awake.child.end = lambda patience: pulses_at_the_wait.append(dict(awake.hand.pulses)) or end(patience)
+    awake.hear_actuator()
+    assert pulses_at_the_wait == [NEUTRAL]
+    assert awake.child.log[-1] == f"end {GRACE:g}"
+    assert awake.node.errors == [
+        "the actuator is gone: it ended; the chip is kept at rest and another starts"
+    ]
+    assert FILE not in awake.node.watched
+
+
+def test_after_a_pause_of_its_own_it_listens_before_it_judges(awake: Kennel) -> None:
+    """Both were stopped; the actuator must not be killed for a silence that nobody could hear."""
+    awake.clock.pass_by(3.0)
+    awake.node.live(awake.clock, 0.1)
+    assert not awake.resting
+    awake.live(1.0)
+    assert awake.child.starts == 1
+
+
+def test_after_a_pause_of_its_own_a_dead_actuator_is_still_found(awake: Kennel) -> None:
+    awake.child.frozen = True
+    awake.clock.pass_by(3.0)
+    assert awake.until(lambda: awake.resting) == pytest.approx(SILENCE, abs=3 * PERIOD)
+
+
+def test_pulses_that_somebody_may_drive_are_left_alone(awake: Kennel) -> None:
+    awake.hand.pulses = dict(MOVING)
+    for _ in range(200):
+        awake.hear("pwm/keyboard", PUSH)
+        awake.live(PERIOD)
+    assert awake.shelf.stop is None
+    status = awake.status
+    assert (status.moving, status.allowed, status.commands) == (True, True, 200)
+
+
+def test_pulses_that_nobody_may_drive_are_stopped_and_the_actuator_told(awake: Kennel) -> None:
+    awake.hand.pulses = dict(MOVING)
+    seconds = awake.until(lambda: awake.shelf.stop)
+    assert seconds <= 3 * LOOK_EVERY
+    assert awake.shelf.stop.by == "the watchdog"
+    assert awake.shelf.stop.why.startswith("its pulses moved although ")
+    assert STOP in awake.child.words
+    assert awake.hand.pulses == NEUTRAL
+    assert awake.child.starts == 1
+    assert awake.node.errors[0].startswith("stops the robot: its pulses moved although ")
+
+
+def test_one_that_moves_on_although_the_watchdog_stopped_it_is_killed(awake: Kennel) -> None:
+    awake.child.moves = True
+    awake.until(lambda: awake.shelf.stop)
+    assert awake.until(lambda: awake.resting) <= 4 * LOOK_EVERY
+    assert awake.hand.pulses == NEUTRAL
+
+
+def test_one_that_moves_on_although_somebody_stopped_it_is_killed(awake: Kennel) -> None:
+    def push() -> bool:
+        awake.hear("pwm/keyboard", PUSH)
+        return awake.resting
+
+    awake.child.moves = True
+    awake.until(lambda: push() or awake.clock.time > 1010.0)
+    assert not awake.resting
+    awake.shelf.keep(Stop(engaged=True, id=5, by="ann", why=""))
+    seconds = awake.until(push)
+    assert GRACE < seconds <= GRACE + 4 * LOOK_EVERY
+    assert "its pulses moved although a stop is in force" in awake.node.errors[-1]
+    assert awake.hand.pulses == NEUTRAL
+
+
+def test_where_a_stop_cannot_be_kept_the_actuator_is_killed_instead(awake: Kennel) -> None:
+    """It learns of the watchdog's stop from the file."""
+    awake.shelf.full = awake.child.moves = True
+    assert awake.until(lambda: awake.resting) <= 3 * LOOK_EVERY
+    assert awake.hand.pulses == NEUTRAL
+
+
+def test_a_stop_that_the_actuator_ignores_is_engaged(awake: Kennel) -> None:
+    stop = Stop(engaged=True, id=5, by="ann", why="")
+    awake.hear("stop", stop)
+    assert awake.until(lambda: awake.shelf.stop) <= GRACE + 3 * PERIOD
+    assert awake.shelf.stop == stop
+    assert awake.node.errors == ["stops the robot: ann"]
+    assert awake.child.words[-1] in (STOP, HEARS)
+    assert STOP in awake.child.words
+
+
+def test_a_chip_that_cannot_be_read_is_said_and_nobody_is_killed_for_it(awake: Kennel) -> None:
+    awake.hand.broken.add("read")
+    awake.live(1.0)
+    assert "cannot read the chip: the chip does not take a read" in awake.node.warnings
+    assert (awake.child.starts, awake.node.errors) == (1, [])
+
+
+def test_neutral_is_written_until_it_is_read_back_and_then_another_starts(awake: Kennel) -> None:
+    awake.child.dead = True
+    awake.hand.broken.add("start")
+    awake.live(1.0)
+    assert awake.child.starts == 1, "it started another beside a chip that is not at rest"
+    assert awake.hand.log.count("start") >= 40
+    assert "cannot bring the chip to rest: the chip does not take a start" in awake.node.errors
+    awake.hand.broken.clear()
+    awake.until(lambda: awake.restarted)
+    assert awake.hand.pulses == NEUTRAL
+
+
+def test_neutral_is_written_until_the_process_is_gone_as_well(awake: Kennel) -> None:
+    """One that is stuck in the kernel may write once more when it comes loose."""
+    awake.child.stuck = awake.child.frozen = True
+    awake.until(lambda: awake.resting)
+    awake.live(0.5)
+    awake.hand.pulses = dict(MOVING)
+    awake.live(PERIOD)
+    assert (awake.hand.pulses, awake.child.starts) == (NEUTRAL, 1)
+    awake.hand.log.clear()
+    awake.live(0.5)
+    assert awake.hand.log.count("start") == pytest.approx(25, abs=1)
+    awake.child.stuck = awake.child.frozen = awake.child.alive = False
+    awake.until(lambda: awake.restarted)
+
+
+def test_another_starts_after_the_childs_own_pause(awake: Kennel) -> None:
+    awake.child.dead = True
+    awake.hear_actuator()
+    assert awake.until(lambda: awake.restarted) == pytest.approx(PAUSE, abs=2 * PERIOD)
+    assert awake.status.restarts == 1
+
+
+def test_while_it_rests_it_says_so(awake: Kennel) -> None:
+    awake.child.dead = True
+    awake.hear_actuator()
+    status = awake.status
+    assert (status.state, status.why) == ("resting", "the actuator is gone: it ended")
+
+
+def test_outputs_of_a_chip_that_takes_no_neutral_are_cut_until_an_actuator_steps_on_it(
+    awake: Kennel,
+) -> None:
+    awake.hand.broken.add("start")
+    awake.child.dead = True
+    awake.hear_actuator()
+    assert set(awake.enabled[1:]) == {False}
+    awake.hand.broken.clear()
+    awake.live(1.0)
+    assert awake.restarted
+    assert awake.enabled[-1]
+
+
+def test_a_chip_that_does_not_keep_neutral_is_cut_off(awake: Kennel) -> None:
+    awake.hand.start = lambda neutral_us: None
+    awake.hand.pulses = dict(MOVING)
+    awake.child.dead = True
+    awake.hear_actuator()
+    assert awake.enabled[-1] is False
+
+
+def test_outputs_cut_by_a_moment_are_let_through_once_the_chip_is_at_rest(awake: Kennel) -> None:
+    """The actuator lives on, so no other's first step would do it."""
+    start = awake.hand.start
+
+    def disturbed(neutral_us: dict[int, float]) -> None:
+        awake.hand.start = start
+        raise DeviceError("noise")
+
+    awake.hand.start = disturbed
+    awake.hear("stop", Stop(engaged=True, id=5, by="ann", why=""))
+    awake.until(lambda: awake.shelf.stop)
+    assert awake.enabled[-1] is False
+    awake.live(2 * LOOK_EVERY)
+    assert awake.enabled[-1] is True
+    assert awake.enabled.count(True) == 2
+
+
+@pytest.mark.parametrize("code", [1, 2])
+def test_a_first_start_that_fails_ends_it_with_the_actuators_code(kennel: Kennel, code: int) -> None:
+    """It has said why, in a sentence of its own: again and again would not help."""
+    kennel.child.dead, kennel.child.code = True, code
+
+    def spin() -> None:
+        kennel.child.dead = True
+        kennel.hear_actuator()
+        assert kennel.node.stopped
+
+    kennel.node.spin = spin
+    assert kennel.dog.run() == code
+    assert (kennel.child.starts, kennel.node.errors) == (1, [])
+
+
+def test_a_first_start_that_is_killed_is_tried_again(kennel: Kennel) -> None:
+    kennel.child.code = -9
+
+    def spin() -> None:
+        kennel.child.dead = True
+        kennel.hear_actuator()
+        assert not kennel.node.stopped
+        kennel.until(lambda: kennel.restarted)
+
+    kennel.node.spin = spin
+    assert kennel.dog.run() == 0
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_ends_it_after_the_actuator_with_neutral_as_the_last_word(
+    kennel: Kennel, number: int, handlers: dict[int, object], told: list[str]
+) -> None:
+    def spin() -> None:
+        kennel.live(0.5)
+        kennel.hand.pulses = dict(MOVING)
+        kennel.hand.log.clear()
+        kennel.child.log.clear()
+        handlers[number](number, None)
+        assert kennel.node.stopped
+
+    kennel.node.spin = spin
+    assert kennel.dog.run() == 128 + number
+    assert kennel.child.log == ["ask", f"end {FAREWELL:g}"]
+    assert kennel.hand.log == ["start", "read", "close"]
+    assert kennel.hand.pulses == NEUTRAL
+    assert (kennel.enabled[-1], told[-1]) == (False, "STOPPING=1")
+
+
+def test_it_tries_for_two_seconds_to_leave_neutral_behind(kennel: Kennel) -> None:
+    kennel.hand.broken.add("start")
+    began = kennel.clock.time
+    kennel.dog.run()
+    assert kennel.clock.time - began == pytest.approx(REST_PATIENCE, abs=2 * PERIOD)
+    assert kennel.hand.log[-1] == "close"
+    assert kennel.enabled[-1] is False
+
+
+def test_whatever_goes_wrong_neutral_is_left_behind(kennel: Kennel) -> None:
+    def spin() -> None:
+        kennel.hand.pulses = dict(MOVING)
+        raise ZeroDivisionError
+
+    kennel.node.spin = spin
+    with pytest.raises(ZeroDivisionError):
+        kennel.dog.run()
+    assert kennel.hand.pulses == NEUTRAL
+    assert kennel.child.log[-1] == f"end {FAREWELL:g}"
