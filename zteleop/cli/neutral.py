@@ -1,6 +1,7 @@
 import argparse
 
 from zteleop import config
+from zteleop.bus.names import robot_name
 from zteleop.cli import options
 from zteleop.control.calibration import Calibration
 from zteleop.drivers import DRIVERS, open_driver
@@ -16,7 +17,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> None:
     """Write neutral first and ask afterwards: it is never wrong."""
     settings = config.load(arguments.config)
-    robot = arguments.robot or settings.robot or config.own_name()
+    robot = robot_name(arguments.robot or settings.robot or config.own_name())
     name = arguments.driver or settings.driver
     chip = settings.driver_settings(name, robot)
     hand = open_driver(name, chip, exclusive=False)

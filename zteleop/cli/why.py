@@ -49,5 +49,5 @@ def describe(dog: WatchdogStatus) -> str:
     sees = "pulses that move" if dog.moving else "pulses of rest"
     permits = "somebody may drive" if dog.allowed else "nobody may drive"
     steps = f"{dog.why}, last {dog.silence * 1000:.0f} ms ago" if dog.state == "watching" else dog.why
-    restarts = f"; {dog.restarts} restarts" if dog.restarts else ""
+    restarts = f"; {dog.restarts} restart{'s'[: dog.restarts - 1]}" if dog.restarts else ""
     return f"{dog.state}: {steps}; sees {sees}, and by what it heard {permits}{restarts}"

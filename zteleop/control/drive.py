@@ -198,6 +198,7 @@ class Drive:
         if refusal or proof is None:
             return refusal
         if not moving:
+            self._gone = None  # a last neutral may arrive after the news of its sender's end
             self.mux.release(proof.sender)
             return None
         if self.holds:

@@ -13,7 +13,7 @@ from zteleop.messages import Twist
 COLORS = {"driving": "green", "stopped": "red", "fault": "red"}
 STOP, RELEASE = ("backspace", "STOP"), ("r", "release")
 KEYS = {
-    "step": (("arrows/wasd", "drive"), ("space", "stop"), ("x", "neutral"), ("q", "quit")),
+    "step": (("arrows/wasd", "drive"), ("space", "throttle off"), ("x", "neutral"), ("q", "quit")),
     "hold": (
         ("arrows/wasd", "drive while held"),
         ("space", "let go"),

@@ -122,7 +122,7 @@ class Watchdog:
 
     def _look(self) -> None:
         """Read the chip; what moves without a reason is stopped, and what does not obey that is killed."""
-        if self._restart_at is not None:
+        if self._restart_at is not None or not self._child.ready:
             return
         try:
             why = self._judge.look(self._hand.read(self._judge.neutral_us), clock.now())
@@ -148,16 +148,20 @@ class Watchdog:
         now = clock.now()
         if self._child.link:
             self._node.unwatch(self._child.link.fileno())
-        never_stepped = self._child.starts == 1 and not self._child.ready
         code = self._child.end(patience)
         self._rest()
-        if never_stepped and code and code > 0:  # it has said why, in a sentence of its own
+        if self._never_stepped and code and code > 0:  # it has said why, in a sentence of its own
             self._exit_code = code
             self._node.stop()
             return
         self._restart_at = now + self._child.pause(now)
         self._why = f"the actuator is gone: {why}"
         self._node.log.error(f"{self._why}; the chip is kept at rest and another starts")
+
+    @property
+    def _never_stepped(self) -> bool:
+        """No actuator has ever reached the chip."""
+        return self._child.starts == 1 and not self._child.ready
 
     def _keep_at_rest(self, now: float) -> None:
         """Write neutral until it is there and nobody else can write, then start another actuator."""
@@ -175,7 +179,8 @@ class Watchdog:
             self._at_rest = self._judge.at_rest(self._hand.read(neutral_us))
         except DeviceError as error:
             self._at_rest = False
-            self._node.log.error(f"cannot bring the chip to rest: {error}", "rest")
+            if not self._never_stepped:
+                self._node.log.error(f"cannot bring the chip to rest: {error}", "rest")
         if not self._at_rest:
             self._cut(True)
 
@@ -190,7 +195,7 @@ class Watchdog:
         self._child.end(FAREWELL)
         give_up = clock.now() + REST_PATIENCE
         self._rest()
-        while not self._at_rest and clock.now() < give_up:
+        while not (self._at_rest or self._never_stepped) and clock.now() < give_up:
             time.sleep(PERIOD)
             self._rest()
         self._cut(True)

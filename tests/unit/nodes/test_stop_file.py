@@ -77,7 +77,9 @@ def test_the_disk_is_waited_for_elsewhere(
     file: StopFile, threads: list[Thread], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     synced: list[str] = []
-    monkeypatch.setattr(module.os, "fsync", lambda number: synced.append(os.readlink(f"/proc/self/fd/{number}")))
+    monkeypatch.setattr(
+        module.os, "fsync", lambda number: synced.append(os.readlink(f"/proc/self/fd/{number}"))
+    )
     file.keep(STOP)
     file.remove()
     assert synced == []
@@ -175,9 +177,7 @@ def test_what_cannot_be_kept_is_said_and_raises_nothing(
 ) -> None:
     monkeypatch.setattr(Path, "write_bytes", refusing(number))
     file.keep(STOP)
-    assert warnings == [
-        f"the stop holds, but not across a restart: {file.path}: {os.strerror(number)}"
-    ]
+    assert warnings == [f"the stop holds, but not across a restart: {file.path}: {os.strerror(number)}"]
     assert threads == []
 
 
@@ -200,7 +200,5 @@ def test_a_file_that_cannot_be_removed_keeps_the_robot_stopped(
     file.keep(STOP)
     monkeypatch.setattr(Path, "unlink", refusing(number))
     assert not file.remove()
-    assert warnings == [
-        f"the stop cannot be released: {file.path}: {os.strerror(number)}; remove it by hand"
-    ]
+    assert warnings == [f"the stop cannot be released: {file.path}: {os.strerror(number)}; remove it by hand"]
     assert file.load() == STOP

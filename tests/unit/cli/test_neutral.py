@@ -1,0 +1,98 @@
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from zteleop.cli.run import run_verb
+from zteleop.drivers import open_driver
+from zteleop.drivers.registers import read_duty_ticks
+from zteleop.drivers.simulated import open_registers
+
+Capture = pytest.CaptureFixture[str]
+
+
+@pytest.fixture
+def chip(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
+    """A simulated chip that was left driving."""
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
+    monkeypatch.chdir(tmp_path)
+    path = str(tmp_path / "chip")
+    (tmp_path / "config.toml").write_text(f"[drivers.simulated]\npath = {path!r}\n")
+    drive(path)
+    return path
+
+
+def drive(path: str) -> None:
+    driver = open_driver("simulated", {"path": path})
+    driver.start({0: 1509.6, 1: 1530.0})
+    driver.write({0: 1700.0, 1: 1600.0})
+    driver.close()
+
+
+def ticks(path: str) -> tuple[int | None, int | None]:
+    with open_registers(path) as registers:
+        seen = registers.snapshot()
+    return read_duty_ticks(seen, 0), read_duty_ticks(seen, 1)
+
+
+def neutral(*arguments: str) -> int:
+    return run_verb("neutral", "neutral", list(arguments))
+
+
+def test_it_writes_neutral_and_says_what_that_is(chip: str, capsys: Capture) -> None:
+    assert ticks(chip) != (370, 375)
+    assert neutral() == 0
+    assert ticks(chip) == (370, 375)
+    assert capsys.readouterr() == (
+        "at rest: throttle 1510 us = 370 ticks, steering 1530 us = 375 ticks\n",
+        "",
+    )
+
+
+def test_a_chip_whose_lock_is_taken_is_at_neutral_and_said_to_be_anothers(chip: str, capsys: Capture) -> None:
+    owner = open_driver("simulated", {"path": chip})
+    try:
+        assert neutral() == 1
+    finally:
+        owner.close()
+    assert ticks(chip) == (370, 375)
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.startswith("zteleop neutral: neutral was written, but ")
+    assert f"{chip} is driven by process {os.getpid()} already; stop it first, for it goes on writing" in err
+
+
+def test_it_is_that_robots_chip_without_a_path(chip: str, tmp_path: Path, capsys: Capture) -> None:
+    (tmp_path / "config.toml").write_text("robot = 'zoe'\n")
+    other, own = (str(tmp_path / "zteleop" / f"{robot}.pca9685") for robot in ("abe", "zoe"))
+    drive(other)
+    drive(own)
+    assert neutral("--robot", "abe") == 0
+    assert ticks(other) == (370, 375)
+    assert ticks(own) != (370, 375)
+    assert neutral() == 0
+    assert ticks(own) == (370, 375)
+
+
+def test_a_chip_that_does_not_answer_is_1_and_a_sentence(chip: str, capsys: Capture, tmp_path: Path) -> None:
+    (tmp_path / "config.toml").write_text(f"[drivers.simulated]\npath = '{tmp_path}'\n")
+    assert neutral() == 1
+    assert capsys.readouterr().err.startswith("zteleop neutral: cannot open the simulated chip ")
+
+
+def test_a_robots_name_leads_to_no_other_file(chip: str, capsys: Capture) -> None:
+    assert neutral("--robot", "../../etc/x") == 1
+    assert "../../etc/x" in capsys.readouterr().err
+
+
+def test_its_calibration_is_the_files(chip: str, tmp_path: Path, capsys: Capture) -> None:
+    with (tmp_path / "config.toml").open("a") as file:
+        file.write("[drive.servos.throttle]\nchannel = 3\nneutral_us = 1500\n")
+        file.write("[drive.servos.steering]\nchannel = 1\n")
+    assert neutral() == 0
+    with open_registers(chip) as registers:
+        assert read_duty_ticks(registers.snapshot(), 3) == 368
+    assert "throttle 1500 us = 368 ticks" in capsys.readouterr().out

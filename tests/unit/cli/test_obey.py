@@ -1,0 +1,95 @@
+import io
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import msgspec
+import pytest
+from unit.nodes.fakes import Node
+
+from zteleop.bus.session import BusSettings
+from zteleop.cli import obey
+from zteleop.config import Config
+from zteleop.errors import DeviceError
+from zteleop.nodes import link
+
+
+@pytest.fixture
+def made(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> dict[str, Any]:
+    """What the actuator was made of."""
+    made: dict[str, Any] = {}
+
+    @contextmanager
+    def join(name: str, robot: str, bus: BusSettings) -> Iterator[Node]:
+        made.update(name=name, bus=bus, node=Node(robot))
+        yield made["node"]
+        made["left"] = True
+
+    def actuator(node: Any, drive: Any, driver: Any, end: Any, stop_file: Any, journal: Any) -> Any:
+        made.update(drive=drive, end=end, stop=stop_file.path, journal=journal)
+        return SimpleNamespace(run=lambda: made.update(ran=True))
+
+    def open_driver(name: str, settings: Any, *, exclusive: bool) -> str:
+        made.update(driver=name, settings=settings, exclusive=exclusive)
+        return "driver"
+
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+    monkeypatch.setattr(obey.realtime, "take", lambda priority, score: made.update(asked=priority) or [])
+    monkeypatch.setattr(link, "adopt", lambda number: f"end {number}")
+    monkeypatch.setattr(obey, "Node", join)
+    monkeypatch.setattr(obey, "Actuator", actuator)
+    monkeypatch.setattr(obey, "Journal", lambda folder, detail, warn: (folder, detail))
+    monkeypatch.setattr(obey, "open_driver", open_driver)
+    return made
+
+
+def give(monkeypatch: pytest.MonkeyPatch, settings: bytes) -> None:
+    monkeypatch.setattr(obey.sys, "stdin", SimpleNamespace(buffer=io.BytesIO(settings)))
+
+
+SETTINGS = Config(
+    robot="archangel",
+    bus=BusSettings(mode="client", connect=["unixsock-stream//tmp/x/bus"], multicast=False),
+    journal="all",
+    drivers={"simulated": {"path": "/tmp/chip"}},
+)
+
+
+def test_it_obeys_with_the_settings_it_is_given_and_its_parents_lock(
+    made: dict[str, Any], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    give(monkeypatch, msgspec.json.encode(SETTINGS))
+    assert obey.run(7) == 0
+    assert (made["name"], made["node"].robot, made["bus"]) == ("actuator", "archangel", SETTINGS.bus)
+    assert (made["drive"], made["end"]) == (SETTINGS.drive, "end 7")
+    assert (made["driver"], made["settings"], made["exclusive"]) == (
+        "simulated",
+        {"path": "/tmp/chip"},
+        False,
+    )
+    folder = tmp_path / "zteleop" / "robots" / "archangel"
+    assert (made["stop"], made["journal"]) == (folder / "stop", (folder, "all"))
+    assert made["ran"]
+    assert made["left"]
+
+
+def test_it_ranks_below_its_watchdog(made: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
+    from zteleop.cli import actuator
+
+    give(monkeypatch, msgspec.json.encode(SETTINGS))
+    obey.run(7)
+    assert made["asked"] < actuator.PRIORITY
+    assert obey.OOM_SCORE > actuator.OOM_SCORE
+
+
+def test_a_chip_that_is_missing_leaves_the_bus(made: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
+    def missing(*_: object, **__: object) -> None:
+        raise DeviceError("nobody answers")
+
+    monkeypatch.setattr(obey, "open_driver", missing)
+    give(monkeypatch, msgspec.json.encode(SETTINGS))
+    with pytest.raises(DeviceError, match="nobody answers"):
+        obey.run(7)
+    assert "ran" not in made

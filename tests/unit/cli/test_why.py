@@ -1,0 +1,101 @@
+from collections.abc import Callable
+from contextlib import nullcontext
+from typing import Any
+
+import pytest
+from unit.nodes.fakes import Node as Base
+
+from zteleop.cli import why
+from zteleop.cli.why import describe, explain
+from zteleop.errors import BusError
+from zteleop.messages import DriveStatus, Layer, WatchdogStatus, Why
+
+
+class Node(Base):
+    """One that hears, at its first glance, what the test put into its inboxes."""
+
+    def until(self, look: Callable[[], Any], seconds: float) -> Any:
+        self.patience = seconds
+        for topic, message in self.says.items():
+            self.inboxes[topic].waiting.append(message)
+        return look()
+
+
+def node(**says: Any) -> Node:
+    node = Node()
+    node.says = says
+    return node
+
+
+def dog(**changes: Any) -> WatchdogStatus:
+    values = {
+        "state": "watching",
+        "why": "the actuator steps",
+        "silence": 0.0123,
+        "moving": False,
+        "allowed": False,
+        "commands": 7,
+        "restarts": 0,
+    }
+    return WatchdogStatus(**values | changes)
+
+
+STATUS = DriveStatus.zero()
+STATUS.state, STATUS.why = "driving", "keyboard drives"
+LAYERS = Why([Layer("operator", "keyboard 00ff operates"), Layer("limiter", "passes it on as asked")])
+
+
+def test_a_line_for_the_robot_and_one_for_each_layer() -> None:
+    assert explain(node(drive_status=STATUS, why=LAYERS, watchdog=dog())).splitlines() == [
+        "archangel is driving: keyboard drives",
+        "  operator  keyboard 00ff operates",
+        "  limiter   passes it on as asked",
+        "  watchdog  watching: the actuator steps, last 12 ms ago; sees pulses of rest, "
+        "and by what it heard nobody may drive",
+    ]
+
+
+def test_a_robot_whose_actuator_is_gone_is_told_by_its_watchdog() -> None:
+    lines = explain(node(watchdog=dog(state="resting", why="the actuator is gone: it ended"))).splitlines()
+    assert lines[0] == "archangel: no actuator heard"
+    assert lines[1].startswith("  watchdog  resting: the actuator is gone: it ended; sees ")
+
+
+def test_a_robot_whose_watchdog_is_not_heard_says_so() -> None:
+    assert explain(node(drive_status=STATUS)).splitlines()[-1] == "  watchdog  is not heard"
+
+
+def test_nobody_there_is_an_error_in_words() -> None:
+    silent = node()
+    with pytest.raises(BusError, match=r"no actuator of archangel is heard within 2 s; is it on\?"):
+        explain(silent)
+    assert silent.patience == why.PATIENCE
+
+
+@pytest.mark.parametrize(
+    ("status", "words"),
+    [
+        (dog(moving=True, allowed=True), "sees pulses that move, and by what it heard somebody may drive"),
+        (dog(moving=True), "sees pulses that move, and by what it heard nobody may drive"),
+        (dog(restarts=3), "nobody may drive; 3 restarts"),
+        (dog(restarts=1), "nobody may drive; 1 restart"),
+        (dog(state="starting", why="the actuator starts"), "starting: the actuator starts; sees"),
+    ],
+)
+def test_what_a_watchdog_sees_in_a_line(status: WatchdogStatus, words: str) -> None:
+    line = describe(status)
+    assert words in line
+    assert "1 restarts" not in line
+    assert "\n" not in line
+
+
+def test_the_verb_prints_it_escaped(monkeypatch: pytest.MonkeyPatch, capsys: Any) -> None:
+    evil = Why([Layer("operator", "\x1b[2Jkeyboard")])
+    monkeypatch.setattr(why.options, "load", lambda arguments: None)
+    monkeypatch.setattr(
+        why.options, "join", lambda name, settings: nullcontext(node(drive_status=STATUS, why=evil))
+    )
+    why.run(None)
+    out = capsys.readouterr().out
+    assert "\x1b" not in out
+    assert out.count("\n") == 3
