@@ -1,14 +1,13 @@
 """A node: a name on the bus, with publishers, subscriptions and timers, single-threaded for its user."""
 
 import secrets
-import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, Self, TypeVar
 
 import zenoh
 
-from zteleop.bus import clock, codec, presence, signals
+from zteleop.bus import clock, codec, presence, signals, voice
 from zteleop.bus.heard import Heard
 from zteleop.bus.log import NodeLog
 from zteleop.bus.loop import Loop, Timer
@@ -54,7 +53,7 @@ class Node:
         self._tokens: list[zenoh.LivelinessToken] = []
         self._heard: dict[str, Heard] = {}
         self._log_publisher: Publisher[Log] | None = None
-        self.log = NodeLog(self.name, self._say, _to_stderr)
+        self.log = NodeLog(self.name, self._say, voice.say)
         if self.robot:
             self._token(presence.node_key(self.robot, self.name))
             self._log_publisher = self.publisher("log", Log)
@@ -76,6 +75,7 @@ class Node:
         for pump in self._pumps:
             pump.close()
         self._loop.close()
+        voice.flush()
 
     def publisher(
         self, topic: str, types: Types[M], *, source: str = "program", wait: bool = True
@@ -250,7 +250,3 @@ def _tuple(types: Types[M]) -> tuple[type[M], ...]:
 
 def _keep_quiet(text: str) -> None:
     """Leave it to somebody else to complain."""
-
-
-def _to_stderr(line: str) -> None:
-    sys.stderr.write(line + "\n")

@@ -7,7 +7,10 @@ from collections.abc import Callable
 from types import FrameType
 from typing import Any
 
-ENDING = (signal.SIGINT, signal.SIGTERM, *([signal.SIGHUP] if hasattr(signal, "SIGHUP") else []))
+ENDING = tuple(
+    getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT") if hasattr(signal, name)
+)
+"""Ctrl-C, kill, a terminal that closes, Ctrl-\\."""
 UNDISTURBED = 1.0
 """s after a signal in which a second Ctrl-C does not end what the first began to clean up."""
 _raised = float("-inf")

@@ -26,6 +26,10 @@ class Latch:
         self.stop = None
         return True
 
+    def forget(self) -> None:
+        """End the stop by other means than its release."""
+        self.stop = None
+
     def _engage(self, said: Stop) -> bool:
         if said.id in self._known or (self.stop and self.stop.id == said.id):
             return False

@@ -21,7 +21,7 @@ from zteleop.messages import (
     Why,
 )
 from zteleop.nodes.journal import Journal
-from zteleop.nodes.link import HEARS, STOP, ActuatorEnd, Report
+from zteleop.nodes.link import ActuatorEnd, Report
 from zteleop.nodes.output import Output
 from zteleop.nodes.stop_file import StopFile
 
@@ -150,11 +150,11 @@ class Actuator:
     def _hear_watchdog(self) -> None:
         words = self._link.read()
         now = self._watched = clock.now()
-        if STOP in words and (stop := self._stop_file.load()):
-            self._obey(stop)
-        if words.endswith(HEARS):
+        if words.stop:
+            self._obey(words.stop)
+        if words.hears:
             self._drive.free(DEAF, now)
-        elif words:
+        elif words.hears is False:
             self._drive.hold(DEAF, "starting", "the watchdog does not hear this robot on the bus", now)
 
     def _obey(self, said: Stop) -> None:

@@ -36,8 +36,12 @@ class Child:
         self.link, theirs = link.pair()
         with theirs:
             command = [*self._command, "--link", str(theirs.fileno())]
+            # In a session of its own, so that no key of a terminal ends or stops both processes at once.
             self._process = subprocess.Popen(
-                command, stdin=subprocess.PIPE, pass_fds=[theirs.fileno(), *self._shared]
+                command,
+                stdin=subprocess.PIPE,
+                pass_fds=[theirs.fileno(), *self._shared],
+                start_new_session=True,
             )
         assert self._process.stdin
         with suppress(BrokenPipeError), self._process.stdin as settings:

@@ -5,9 +5,13 @@ from contextlib import suppress
 from struct import Struct
 from typing import NamedTuple
 
+import msgspec
+
 from zteleop.errors import DeviceError
+from zteleop.messages import Stop
 
 _REPORT = Struct("<dQd")
+_STOP_HEAD = Struct("<cH")
 _BYTES = 4096
 
 HEARS = b"h"
@@ -15,7 +19,7 @@ HEARS = b"h"
 DEAF = b"d"
 """The watchdog lives, and does not hear the actuator's beats on the bus."""
 STOP = b"s"
-"""A stop is in the stop file: obey it now."""
+"""A stop follows, two bytes of its length before it: obey it now."""
 
 
 class Report(NamedTuple):
@@ -54,18 +58,42 @@ class End:
             return None
 
 
+class Words(NamedTuple):
+    """What the watchdog said since the last look."""
+
+    hears: bool | None
+    """whether it hears the bus; None when it said nothing of that"""
+    stop: Stop | None
+
+
 class ActuatorEnd(End):
     """Reports every step, and hears whether somebody watches."""
+
+    def __init__(self, file: socket.socket) -> None:
+        super().__init__(file)
+        self._rest = b""
 
     def report(self, report: Report) -> None:
         self._send(_REPORT.pack(*report))
 
-    def read(self) -> bytes:
-        """Return the words that arrived; raises DeviceError when the watchdog is gone."""
-        words = self._read()
-        if words is None:
+    def read(self) -> Words:
+        """Return what arrived; raises DeviceError when the watchdog is gone."""
+        data = self._read()
+        if data is None:
             raise DeviceError("the watchdog is gone; the actuator does not run without one")
-        return words
+        self._rest += data
+        hears, stop = None, None
+        while self._rest:
+            word, length = self._rest[:1], 1
+            if word == STOP:
+                length = _STOP_HEAD.size + int.from_bytes(self._rest[1 : _STOP_HEAD.size], "little")
+                if len(self._rest) < max(length, _STOP_HEAD.size):
+                    break
+                stop = msgspec.json.decode(self._rest[_STOP_HEAD.size : length], type=Stop)
+            else:
+                hears = word == HEARS
+            self._rest = self._rest[length:]
+        return Words(hears, stop)
 
 
 class WatchdogEnd(End):
@@ -77,6 +105,10 @@ class WatchdogEnd(End):
 
     def say(self, word: bytes) -> None:
         self._send(word)
+
+    def stop(self, stop: Stop) -> None:
+        said = msgspec.json.encode(stop)
+        self._send(_STOP_HEAD.pack(STOP, len(said)) + said)
 
     def read(self) -> Report | None:
         """Return the newest report that arrived; raises EOFError when the actuator is gone."""

@@ -30,7 +30,8 @@ class Overhearing:
         self._beats = node.subscription("beat", Beat, complain=False)
         self._stops: Subscription[Stop] = node.subscription("stop", Stop, complain=False)
         self._latch = Latch()
-        self._asked: tuple[Stop, float] | None = None
+        self._asked_at = float("-inf")
+        self._told = self._was_kept = False
         self._beat_at = float("-inf")
         self.commands = 0
 
@@ -52,16 +53,27 @@ class Overhearing:
             self._beat_at = now
         return now - self._beat_at < DEAF_AFTER
 
+    @property
+    def stop(self) -> Stop | None:
+        """The stop in force, as far as it was heard."""
+        return self._latch.stop
+
+    def engage(self, stop: Stop, now: float) -> None:
+        """Learn of a stop that the watchdog itself engages."""
+        self._latch.obey(stop)
+        self._asked_at, self._told = now, True
+
     def _listen_for_stops(self, now: float) -> Stop | None:
         for received in self._stops.take():
-            said = received.message
-            if self._latch.obey(said):
-                self._asked = (said, now) if said.engaged else None
+            if self._latch.obey(received.message):
+                self._asked_at, self._told = now, False
         kept = self._stop_file.exists()
-        if kept:
-            self._asked = None
-        self._judge.rest(kept or self._asked is not None, now)
-        if self._asked is None or now - self._asked[1] <= GRACE:
+        if self._was_kept and not kept and self._asked_at != now:
+            self._latch.forget()  # whoever removed the file has released it
+        self._was_kept = kept
+        stop = self._latch.stop
+        self._judge.rest(kept or stop is not None, now)
+        if stop is None or kept or self._told or now - self._asked_at <= GRACE:
             return None
-        ignored, self._asked = self._asked[0], None
-        return ignored
+        self._told = True
+        return stop

@@ -32,7 +32,7 @@ class StopFile:
         if not self.exists():
             return None
         try:
-            stop = msgspec.json.decode(self.path.read_bytes(), type=Stop)
+            stop = msgspec.json.decode(_read(self.path), type=Stop)
             return msgspec.structs.replace(stop, engaged=True)
         except (OSError, msgspec.DecodeError, UnicodeDecodeError):
             why = f"{self.path} is there and cannot be read"
@@ -42,7 +42,7 @@ class StopFile:
         """Keep a stop, at once for other processes; the disk itself is written behind our back."""
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
-            self.path.write_bytes(msgspec.json.encode(stop))
+            _write(self.path, msgspec.json.encode(stop))
         except OSError as error:
             self._warn(f"the stop holds, but not across a restart: {self.path}: {error.strerror}")
             return
@@ -60,9 +60,26 @@ class StopFile:
         return True
 
 
+def _read(path: Path) -> bytes:
+    """Return a file's bytes; a pipe in its place would be waited for, for ever."""
+    file = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
+    try:
+        return os.read(file, 4096)
+    finally:
+        os.close(file)
+
+
+def _write(path: Path, text: bytes) -> None:
+    file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_NONBLOCK, 0o644)
+    try:
+        os.write(file, text)
+    finally:
+        os.close(file)
+
+
 def _flush(path: Path) -> None:
     try:
-        file = os.open(path, os.O_RDONLY)
+        file = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
     except OSError:
         return
     try:

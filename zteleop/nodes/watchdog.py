@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 from types import FrameType
 
-from zteleop.bus import clock
+from zteleop.bus import clock, signals
 from zteleop.bus.node import Node
 from zteleop.control.drive import DriveSettings
 from zteleop.control.judge import GRACE, Judge
@@ -15,7 +15,7 @@ from zteleop.errors import DeviceError
 from zteleop.messages import Stop, WatchdogStatus
 from zteleop.nodes import service
 from zteleop.nodes.child import Child
-from zteleop.nodes.link import DEAF, HEARS, STOP
+from zteleop.nodes.link import DEAF, HEARS
 from zteleop.nodes.overhear import Overhearing
 from zteleop.nodes.stop_file import StopFile
 
@@ -26,7 +26,7 @@ SILENCE, SILENCE_AT_START = 0.25, 5.0
 """s without a step of the actuator until it is killed."""
 LATE = 0.2
 """s between two ticks, after which the watchdog knows that it was stopped itself."""
-FAREWELL = 1.0
+FAREWELL = 0.25
 REST_PATIENCE = 2.0
 
 
@@ -57,8 +57,9 @@ class Watchdog:
 
     def run(self) -> int:
         """Watch until told to end, or until the actuator cannot start; return the exit code."""
-        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        for number in signals.ENDING:
             signal.signal(number, self._end_by)
+        signal.signal(signal.SIGTSTP, signal.SIG_IGN)  # Ctrl-Z would leave the wheels turning
         try:
             self._start()
             self._node.every(PERIOD)(self._tick)
@@ -91,9 +92,15 @@ class Watchdog:
         if report := self._child.newest:
             self._judge.hear_report(report.epoch, report.since)
             if not was_ready:
-                self._why = "the actuator steps"
-                self._cut(False)
-                service.notify("READY=1")
+                self._greet()
+
+    def _greet(self) -> None:
+        """Let the outputs through, and tell a new actuator of a stop that is on no disk."""
+        self._why = "the actuator steps"
+        self._cut(False)
+        if self._ears.stop and self._child.link:
+            self._child.link.stop(self._ears.stop)
+        service.notify("READY=1")
 
     def _tick(self) -> None:
         """Take in what the bus says, and notice silence."""
@@ -131,16 +138,17 @@ class Watchdog:
             return
         if why and not self._judge.stopped:
             self._engage(Stop(engaged=True, id=secrets.randbits(53), by="the watchdog", why=why))
-        if why and (self._judge.stopped or not self._stop_file.exists()):  # of that one it cannot learn
+        elif why:
             self._fell(why, 0.0)
         elif self._is_cut and self._child.ready and not self._judge.moving:
             self._cut(False)
 
     def _engage(self, stop: Stop) -> None:
         self._node.log.error(f"stops the robot: {stop.why or stop.by}")
+        self._ears.engage(stop, clock.now())
         self._stop_file.keep(stop)
         if self._child.link:
-            self._child.link.say(STOP)
+            self._child.link.stop(stop)
         self._rest()
 
     def _fell(self, why: str, patience: float) -> None:
@@ -193,9 +201,9 @@ class Watchdog:
         service.notify("STOPPING=1")
         self._child.ask_to_end()
         self._child.end(FAREWELL)
-        give_up = clock.now() + REST_PATIENCE
+        give_up = clock.now() + (GRACE if self._never_stepped else REST_PATIENCE)
         self._rest()
-        while not (self._at_rest or self._never_stepped) and clock.now() < give_up:
+        while not self._at_rest and clock.now() < give_up:
             time.sleep(PERIOD)
             self._rest()
         self._cut(True)

@@ -6,7 +6,7 @@ import pytest
 import zenoh
 from unit.bus.fakes import Clock, Session, ZenohPublisher, sample
 
-from zteleop.bus import codec, presence
+from zteleop.bus import codec, presence, voice
 from zteleop.bus.heard import Heard
 from zteleop.bus.node import Node
 from zteleop.errors import ConfigError
@@ -151,7 +151,7 @@ def test_what_a_node_publishes_and_hears_is_told(node: Node, session: Session) -
 
 
 def test_what_is_dropped_is_said_once_a_second_for_each_key(
-    node: Node, session: Session, capsys: pytest.CaptureFixture[str]
+    node: Node, session: Session, capfd: pytest.CaptureFixture[str]
 ) -> None:
     inbox = node.subscription("odom", Odometry)
     session.rings["robot/archangel/odom"].samples += [sample(String("x"), "robot/archangel/odom")] * 5
@@ -162,7 +162,8 @@ def test_what_is_dropped_is_said_once_a_second_for_each_key(
     log = codec.decode(logs[0].payload, logs[0].encoding, codec.decoders([Log]))
     words = "robot/archangel/odom: dropped: expected nav_msgs/msg/Odometry, found 'std_msgs/msg/String'"
     assert log.msg == words
-    assert capsys.readouterr().err == f"nose: warning: {words}\n"
+    voice.flush()
+    assert capfd.readouterr().err == f"nose: warning: {words}\n"
 
 
 @pytest.mark.parametrize("period", [0, -1.0, float("nan")])

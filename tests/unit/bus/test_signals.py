@@ -28,7 +28,7 @@ def handlers(monkeypatch: pytest.MonkeyPatch) -> Table:
 def test_every_ending_signal_unwinds_and_is_given_back(handlers: Table) -> None:
     before = Table()
     undo = signals.unwind()
-    assert set(signals.ENDING) == {signal.SIGINT, signal.SIGTERM, signal.SIGHUP}
+    assert set(signals.ENDING) == {signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT}
     assert all(callable(handler) and handler not in before.values() for handler in handlers.values())
     undo()
     assert handlers == before

@@ -18,7 +18,7 @@ from zteleop.nodes.actuator import (
     WATCHDOG_SILENCE,
     Actuator,
 )
-from zteleop.nodes.link import DEAF, HEARS, STOP, Report
+from zteleop.nodes.link import Report, Words
 from zteleop.nodes.output import REPAIR_EVERY
 
 NEUTRAL = {0: 1509.6, 1: 1530.0}
@@ -36,16 +36,16 @@ class Link:
     """The watchdog at the other end: what it says, and whether it is still there."""
 
     def __init__(self) -> None:
-        self.words: bytes | None = b""
+        self.words: Words | None = Words(None, None)
         self.reports: list[Report] = []
 
     def fileno(self) -> int:
         return 9
 
-    def read(self) -> bytes:
+    def read(self) -> Words:
         if self.words is None:
             raise DeviceError("the watchdog is gone")
-        words, self.words = self.words, b""
+        words, self.words = self.words, Words(None, None)
         return words
 
     def report(self, report: Report) -> None:
@@ -79,7 +79,7 @@ class Robot:
         *,
         chip: Chip | None = None,
         shelf: Shelf | None = None,
-        hears: bytes = HEARS,
+        hears: bool = True,
     ) -> None:
         self.node, self.clock = node, clock
         self.chip, self.link, self.shelf, self.journal = chip or Chip(), Link(), shelf or Shelf(), Journal()
@@ -89,8 +89,7 @@ class Robot:
         self.actuator.run()
         self.prover = Prover(7)
         self.tick()
-        if hears:
-            self.hear(hears)
+        self.hear(Words(hears, None))
         self.tick()
         self.chip.writes.clear()
         self.node.said["drive_status"].take()
@@ -105,7 +104,7 @@ class Robot:
         self.node.timers[TELL_EVERY]()
         return self.node.said["drive_status"].messages[-1]
 
-    def hear(self, words: bytes | None) -> None:
+    def hear(self, words: Words | None) -> None:
         """Hear the watchdog; None is its end."""
         self.link.words = words
         self.node.watched[self.link.fileno()]()
@@ -126,7 +125,7 @@ class Robot:
         for _ in range(times):
             self.clock.pass_by(PERIOD)
             if watched:
-                self.hear(b"")
+                self.hear(Words(None, None))
             self.node.timers[PERIOD]()
 
 
@@ -169,7 +168,7 @@ def test_a_chip_that_takes_no_neutral_at_the_end_is_said_and_all_is_closed(node:
 
 
 def test_it_starts_only_when_the_watchdog_hears_it(node: Node, clock: Clock) -> None:
-    robot = Robot(node, clock, hears=b"")
+    robot = Robot(node, clock, hears=None)
     assert (robot.status.state, robot.status.why) == (
         "starting",
         "the watchdog does not hear this robot on the bus",
@@ -177,15 +176,15 @@ def test_it_starts_only_when_the_watchdog_hears_it(node: Node, clock: Clock) -> 
     robot.say(PUSH)
     robot.tick()
     assert robot.chip.pulses == NEUTRAL
-    robot.hear(HEARS)
+    robot.hear(Words(True, None))
     robot.tick()
     assert robot.status.state == "idle"
 
 
 def test_what_was_begun_before_the_watchdog_heard_it_moves_nothing(node: Node, clock: Clock) -> None:
-    robot = Robot(node, clock, hears=DEAF)
+    robot = Robot(node, clock, hears=False)
     robot.say(PUSH)
-    robot.hear(HEARS)
+    robot.hear(Words(True, None))
     robot.tick()
     robot.say(PUSH)
     robot.tick()
@@ -195,7 +194,7 @@ def test_what_was_begun_before_the_watchdog_heard_it_moves_nothing(node: Node, c
 def test_a_watchdog_that_hears_no_longer_brings_rest(robot: Robot) -> None:
     robot.say(PUSH)
     assert robot.chip.pulses != NEUTRAL
-    robot.hear(HEARS + DEAF)
+    robot.hear(Words(False, None))
     robot.tick()
     assert (robot.status.state, robot.chip.pulses) == ("starting", NEUTRAL)
 
@@ -259,11 +258,11 @@ def test_a_late_repeat_of_a_stop_that_was_released_changes_nothing(robot: Robot)
     assert (robot.status.state, robot.shelf.stop) == ("idle", None)
 
 
-def test_it_obeys_the_watchdogs_stop_from_the_file(robot: Robot) -> None:
+def test_it_obeys_and_keeps_the_watchdogs_stop(robot: Robot) -> None:
     robot.say(PUSH)
-    robot.shelf.keep(KEPT)
-    robot.hear(STOP)
+    robot.hear(Words(None, KEPT))
     assert (robot.status.state, robot.chip.pulses) == ("stopped", NEUTRAL)
+    assert robot.shelf.stop == KEPT
 
 
 def test_without_a_watchdog_it_ends_in_words(robot: Robot) -> None:

@@ -2,13 +2,17 @@ import os
 import socket
 from collections.abc import Iterator
 
+import msgspec
 import pytest
 
 from zteleop.errors import DeviceError
+from zteleop.messages import Stop
 from zteleop.nodes import link
-from zteleop.nodes.link import DEAF, HEARS, STOP, ActuatorEnd, Report, WatchdogEnd
+from zteleop.nodes.link import DEAF, HEARS, ActuatorEnd, Report, WatchdogEnd, Words
 
 MORE_THAN_FITS = 20_000
+STOPPED = Stop(engaged=True, id=5, by="ann", why="the cat")
+TEXT = msgspec.json.encode(STOPPED)
 
 
 def report(number: int) -> Report:
@@ -37,7 +41,7 @@ def test_a_report_arrives_as_it_was_said(ends: Ends) -> None:
 
 def test_nothing_said_is_nothing_and_no_end(ends: Ends) -> None:
     assert ends.dog.read() is None
-    assert ends.actuator.read() == b""
+    assert ends.actuator.read() == Words(None, None)
 
 
 def test_of_several_reports_the_newest_counts(ends: Ends) -> None:
@@ -75,13 +79,24 @@ def test_a_frozen_watchdog_neither_blocks_nor_tears_what_it_reads_later(ends: En
 def test_a_frozen_actuator_never_blocks_the_watchdog(ends: Ends) -> None:
     for _ in range(MORE_THAN_FITS):
         ends.dog.say(HEARS)
-    assert set(ends.actuator.read()) == set(HEARS)
+    assert ends.actuator.read() == Words(True, None)
 
 
-def test_words_arrive_in_their_order(ends: Ends) -> None:
-    for word in (HEARS, STOP, DEAF):
-        ends.dog.say(word)
-    assert ends.actuator.read() == b"hsd"
+@pytest.mark.parametrize(("word", "hears"), [(HEARS, True), (DEAF, False)])
+def test_the_last_word_counts_and_no_stop_is_lost_among_them(ends: Ends, word: bytes, hears: bool) -> None:
+    ends.dog.say(DEAF)
+    ends.dog.stop(STOPPED)
+    ends.dog.say(word)
+    assert ends.actuator.read() == Words(hears, STOPPED)
+
+
+@pytest.mark.parametrize("first", range(1, 12))
+def test_a_stop_that_arrives_in_pieces_is_one_stop(ends: Ends, first: int) -> None:
+    said = b"s" + len(TEXT).to_bytes(2, "little") + TEXT
+    ends.dog._send(said[:first])
+    assert ends.actuator.read() == Words(None, None)
+    ends.dog._send(said[first:] + HEARS)
+    assert ends.actuator.read() == Words(True, STOPPED)
 
 
 def test_the_actuators_end_is_noticed_after_its_last_report(ends: Ends) -> None:

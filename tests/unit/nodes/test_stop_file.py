@@ -153,7 +153,7 @@ def test_a_file_that_cannot_be_looked_at_means_stopped(
     file: StopFile, number: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(module.os, "stat", refusing(number))
-    monkeypatch.setattr(Path, "read_bytes", refusing(number))
+    monkeypatch.setattr(module, "_read", refusing(number))
     assert file.exists()
     assert file.load().engaged
 
@@ -163,7 +163,7 @@ def test_a_file_that_cannot_be_read_means_stopped(
     file: StopFile, number: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     file.keep(STOP)
-    monkeypatch.setattr(Path, "read_bytes", refusing(number))
+    monkeypatch.setattr(module, "_read", refusing(number))
     assert file.load().by == "nobody known"
 
 
@@ -175,7 +175,7 @@ def test_what_cannot_be_kept_is_said_and_raises_nothing(
     threads: list[Thread],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(Path, "write_bytes", refusing(number))
+    monkeypatch.setattr(module, "_write", refusing(number))
     file.keep(STOP)
     assert warnings == [f"the stop holds, but not across a restart: {file.path}: {os.strerror(number)}"]
     assert threads == []
@@ -188,7 +188,7 @@ def test_a_full_disk_leaves_a_file_that_means_stopped(
         path.open("wb").close()
         refusing(errno.ENOSPC)()
 
-    monkeypatch.setattr(Path, "write_bytes", open_only)
+    monkeypatch.setattr(module, "_write", open_only)
     file.keep(STOP)
     assert file.load().engaged
 
@@ -202,3 +202,13 @@ def test_a_file_that_cannot_be_removed_keeps_the_robot_stopped(
     assert not file.remove()
     assert warnings == [f"the stop cannot be released: {file.path}: {os.strerror(number)}; remove it by hand"]
     assert file.load() == STOP
+
+
+def test_a_pipe_in_the_files_place_means_stopped_and_is_not_waited_for(
+    file: StopFile, warnings: list[str]
+) -> None:
+    file.path.parent.mkdir(parents=True)
+    os.mkfifo(file.path)
+    assert file.load().by == "nobody known"
+    file.keep(STOP)
+    assert "the stop holds, but not across a restart" in warnings[0]

@@ -1,0 +1,41 @@
+"""With real pipes: what matters is what the kernel does when nobody reads."""
+
+import os
+import time
+
+from zteleop.bus.voice import LINES, Voice
+
+
+def test_lines_are_written_in_their_order() -> None:
+    ear, mouth = os.pipe()
+    voice = Voice(mouth)
+    for line in ("one", "", "three"):
+        voice.say(line)
+    voice.flush(1.0)
+    assert os.read(ear, 100).split() == [b"one", b"three"]
+    os.close(ear)
+    os.close(mouth)
+
+
+def test_a_pipe_that_nobody_reads_holds_up_nobody() -> None:
+    ear, mouth = os.pipe()
+    voice = Voice(mouth)
+    began = time.monotonic()
+    for _ in range(100 * LINES):
+        voice.say("x" * 100)
+    voice.flush(0.0)
+    assert time.monotonic() - began < 1.0
+    while len(os.read(ear, 65536)) == 65536:  # so that its thread can end
+        pass
+    voice.flush(1.0)
+    os.close(ear)
+    os.close(mouth)
+
+
+def test_a_reader_that_is_gone_is_no_error() -> None:
+    ear, mouth = os.pipe()
+    os.close(ear)
+    voice = Voice(mouth)
+    voice.say("nobody hears this")
+    voice.flush(1.0)
+    os.close(mouth)
