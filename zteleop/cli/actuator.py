@@ -23,6 +23,8 @@ from zteleop.nodes.watchdog import Watchdog
 
 LARGEST = 2**20
 """bytes of a message that passes a robot's door: whoever sends more would hold up the commands of others."""
+LONGEST_PLACE = 70
+"""characters of a folder for the private socket, whose whole path may have a hundred"""
 PRIORITY, OOM_SCORE = 20, -900
 CHILD = [sys.executable, "-m", "zteleop", "actuator"]
 
@@ -67,7 +69,8 @@ def run(arguments: argparse.Namespace) -> int:
         journal=arguments.journal or settings.journal,
     )
     with ExitStack() as stack:
-        folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="zteleop-"))
+        place = None if len(tempfile.gettempdir()) < LONGEST_PLACE else "/tmp"
+        folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="zteleop-", dir=place))
         bus, childs_bus = _door(tuned.bus, f"unixsock-stream/{folder}/bus")
         node = stack.enter_context(_join(robot, bus))
         options.end_with_parent(arguments, node)

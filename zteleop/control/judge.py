@@ -52,6 +52,7 @@ class Judge:
         self._tick_us = tick_us
         self._epoch = -1
         self._stopped: float | None = None
+        self._last_stopped = now
         self._bad_looks = 0
         self.moving = False
 
@@ -73,11 +74,11 @@ class Judge:
 
         Commands are judged all the while: the first after a release may be heard before it.
         """
-        if stopped and self._stopped is None:
-            self._stopped = now
-        elif not stopped and self._stopped is not None:
+        if stopped:
+            self._stopped, self._last_stopped = self._stopped or now, now
+        elif self._stopped is not None:
             self._stopped = None
-            self._drive.gate.begin_after(now)
+            self._drive.gate.begin_after(self._last_stopped)  # it may have been released since
         if self._must_rest(now):
             self._drive.mux.clear()
 

@@ -58,7 +58,8 @@ class Watchdog:
     def run(self) -> int:
         """Watch until told to end, or until the actuator cannot start; return the exit code."""
         for number in signals.ENDING:
-            signal.signal(number, self._end_by)
+            if signal.getsignal(number) != signal.SIG_IGN:  # which nohup wants
+                signal.signal(number, self._end_by)
         signal.signal(signal.SIGTSTP, signal.SIG_IGN)  # Ctrl-Z would leave the wheels turning
         try:
             self._start()
