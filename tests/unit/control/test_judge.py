@@ -3,12 +3,12 @@
 import pytest
 from unit.control.robot import FORWARD, NEUTRAL, REST, TICK_US, Robot, moves
 
-from zteleop.control.drive import DriveSettings, Step
+from zteleop.control.drive import Drive, DriveSettings, Step
 from zteleop.control.gate import SENDERS, Refusal
 from zteleop.control.judge import GRACE, LOOKS, Judge
 from zteleop.control.mux import Source
 from zteleop.control.proof import Proof, Prover
-from zteleop.messages import Beat, Pwm, Twist
+from zteleop.messages import Beat, Pwm, Stop, Twist
 
 MOVING = {0: 1600.0, 1: 1530.0}
 LOOK = 0.05
@@ -348,3 +348,25 @@ def test_half_a_tick_is_rest_and_an_output_that_is_off_too(robot: Watched) -> No
     half = TICK_US / 2
     assert robot.judge.at_rest({0: 1509.6 + half, 1: None})
     assert not robot.judge.at_rest({0: 1509.6, 1: 1530.0 - half - 0.01})
+
+
+def test_a_judge_that_looks_late_does_not_blame_who_began_after_the_release() -> None:
+    settings = DriveSettings()
+    drive, judge = Drive(settings, TICK_US, 1, 0.0), Judge(settings, TICK_US, 0.0)
+    judge.hear_report(1, 0.0)
+    drive.stop(Stop(engaged=True, id=5, by="ann", why=""), 1.0)
+    judge.rest(True, 2.0)
+    drive.stop(Stop(engaged=False, id=5, by="ann", why=""), 2.01)
+    prover, waiting = Prover(1), []
+    for now in (2.06 + 0.02 * number for number in range(60)):
+        prover.act(Beat(1, now))
+        waiting.append(prover.prove(Beat(1, now), True, now))
+        drive.receive("keyboard", Pwm(390, 400), waiting[-1], now)
+        pulses = drive.step(now).pulse_us
+        if now >= 2.38:
+            for proof in waiting:
+                judge.receive("keyboard", Pwm(390, 400), proof, now)
+            waiting.clear()
+            judge.rest(False, now)
+            assert judge.look(pulses, now) is None
+    assert judge.moving
