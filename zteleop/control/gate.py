@@ -34,7 +34,7 @@ class Refusal(StrEnum):
     STALE = "it is too old, or its sender no longer hears the robot"
     OPERATOR_IDLE = "its operator has not acted for too long"
     NOT_FROM_NEUTRAL = "it was moving before the robot started or the link came back; let go first, or pause"
-    HELD = "another sender drives this source"
+    HELD = "another sender drives this source, or did since the last act"
     AT_REST = "the robot is kept at rest; let go, and begin anew when it is free"
     NO_SUCH_CHANNEL = "this vehicle has no steering and throttle; send a twist"
 

@@ -8,6 +8,7 @@ from typing import Annotated, Literal, NamedTuple
 
 from msgspec import Meta, Struct
 
+from zteleop.control.proof import NEVER
 from zteleop.messages import Pwm, Twist
 
 
@@ -21,6 +22,10 @@ class Source(Struct, frozen=True, forbid_unknown_fields=True):
     """arrival: obey foreign senders that cannot prove the age of what they say"""
     max_speed: Annotated[float, Meta(gt=0)] | None = None
     """m/s"""
+
+
+WAITING = 64
+"""How many senders that wait are remembered."""
 
 
 class Claim(NamedTuple):
@@ -41,16 +46,24 @@ class Mux:
         self._sources, self._operator_silence = sources, operator_silence
         self._ranked = sorted(sources, key=lambda name: -sources[name].priority)
         self._claims: dict[str, Claim] = {}
+        self._waiting: dict[tuple[str, int], float] = {}
+        """When each sender was last told that another drives."""
 
     @property
     def claims(self) -> Iterable[Claim]:
         return self._claims.values()
 
     def offer(self, claim: Claim) -> bool:
-        """Take a claim; False when another sender holds its source."""
+        """Take a claim; False when another sender holds its source, or did since this one acted."""
         holder = self._claims.get(claim.source)
         if holder and holder.sender != claim.sender and not self.silent(holder, claim.at):
+            self._waiting[claim.source, claim.sender] = claim.at
+            if len(self._waiting) > WAITING:
+                del self._waiting[next(iter(self._waiting))]
             return False
+        if claim.acted <= self._waiting.get((claim.source, claim.sender), NEVER):
+            return False  # a lever that was pulled meanwhile must not drive by itself once it may
+        self._waiting.pop((claim.source, claim.sender), None)
         self._claims[claim.source] = claim
         return True
 

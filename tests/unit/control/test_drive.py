@@ -289,3 +289,16 @@ def test_a_foreign_sender_does_not_drive_on_when_the_robot_was_stopped_for_a_whi
     assert robot.drive.receive("nav", REST, None, robot.now) is None
     robot.wait(0.02)
     assert robot.drive.receive("nav", FORWARD, None, robot.now) is None
+
+
+def test_a_lever_pulled_while_another_drove_moves_nothing_until_it_acts_again() -> None:
+    robot = Robot()
+    robot.say(FORWARD, "a")
+    assert robot.say(Pwm(390, 400), "b") is Refusal.HELD
+    robot.wait(0.06)
+    robot.say(Twist.planar(), "a")
+    for _ in range(10):
+        assert robot.say(Pwm(390, 400), "b", act=False) is Refusal.HELD
+        assert not moves(robot.wait(0.06))
+    assert robot.say(Pwm(390, 400), "b") is None
+    assert moves(robot.wait(0.06))
