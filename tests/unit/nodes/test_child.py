@@ -1,6 +1,7 @@
 """With real processes only where the kernel's part is what matters."""
 
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -219,6 +220,7 @@ def test_a_frozen_one_is_killed() -> None:
     child = Child(SLEEPER, b"")
     child.start(100.0)
     child._process.send_signal(signal.SIGSTOP)
+    os.waitid(os.P_PID, child._process.pid, os.WSTOPPED | os.WNOWAIT)
     child.ask_to_end()
     child.end(0.0)
     assert child.end(2.0) == -signal.SIGKILL
