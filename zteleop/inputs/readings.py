@@ -84,7 +84,8 @@ def operator(d: Dashboard, unicode: bool) -> str:
 def why(d: Dashboard, unicode: bool) -> str:
     if d.status is None:
         robot = printable(d.robot, unicode)
-        return f"nobody moves: no actuator heard on robot {robot}; start `zteleop actuator`"
+        start = f"start `zteleop actuator --robot {robot}`"
+        return f"no actuator heard on robot {robot}; {start}, or, if it moves, cut its power"
     return printable(d.status.why, unicode)
 
 

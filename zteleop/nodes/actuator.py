@@ -10,6 +10,7 @@ from zteleop.control.command import to_command
 from zteleop.control.drive import Drive, DriveSettings
 from zteleop.control.explain import layers
 from zteleop.control.report import describe, status
+from zteleop.control.stop import describe as describe_stop
 from zteleop.drivers import PulseDriver
 from zteleop.errors import DeviceError, MessageError
 from zteleop.messages import (
@@ -51,7 +52,7 @@ class Actuator:
         self._link, self._stop_file, self._journal = link, stop_file, journal
         self._since = clock.now()
         self._drive = Drive(settings, driver.tick_us, _epoch(), self._since)
-        self._output = Output(driver, self._drive, node.log.info)
+        self._output = Output(driver, self._drive, self._tell_chip)
         self._output.start(self._since)
         self._drive.hold(DEAF, "starting", "the watchdog does not hear this robot on the bus", self._since)
         if stop := stop_file.load():
@@ -80,6 +81,8 @@ class Actuator:
             self._node.every(DESCRIBE_EVERY)(self._describe)
             self._node.every(CHECK_EVERY)(lambda: self._output.check(clock.now()))
             self._node.log.info(f"obeys {self._node.robot}")
+            if held := self._drive.latch.stop:
+                self._node.log.warn(describe_stop(held))
             self._journal.event("start", robot=self._node.robot, epoch=self._drive.gate.epoch)
             self._node.spin()
         finally:
@@ -169,6 +172,10 @@ class Actuator:
         if said.engaged:
             self._stop_file.keep(said)
         self._journal.event("stop" if said.engaged else "release", by=said.by, why=said.why, id=said.id)
+
+    def _tell_chip(self, words: str) -> None:
+        self._node.log.warn(words)
+        self._journal.event("chip", says=words)
 
     def _withdraw(self, sender: int) -> None:
         """Let go at once for a sender whose process is gone; its deadline would come later."""

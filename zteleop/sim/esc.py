@@ -33,7 +33,8 @@ class EscSettings(Struct, frozen=True, forbid_unknown_fields=True):
         if wanted == 0.0:
             drag = min(self.rolling_resistance * dt, abs(speed + change))
             change -= drag if speed > 0 else -drag
-        return speed + max(-self.grip * dt, min(self.grip * dt, change))
+        after = speed + max(-self.grip * dt, min(self.grip * dt, change))
+        return 0.0 if wanted == 0.0 and after * speed < 0 else after  # braking never ends in reverse
 
 
 def fraction(servo: Servo, pulse_us: float | None) -> float | None:
