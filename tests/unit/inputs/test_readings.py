@@ -47,7 +47,9 @@ def test_the_state_has_its_colour(car, state, style):
 
 def test_without_an_actuator_it_says_what_to_do():
     shown = texts(readings(Dashboard("archangel", "step", Speeds()), 80, True))
-    words = "no actuator heard on robot archangel; start `zteleop actuator --robot archangel`, or, if it moves"
+    words = (
+        "no actuator heard on robot archangel; start `zteleop actuator --robot archangel`, or, if it moves"
+    )
     assert words in f"{shown[1]} {shown[2]}"
     assert shown[3].endswith("[-, -]")
 
