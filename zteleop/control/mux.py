@@ -68,7 +68,8 @@ class Mux:
         return True
 
     def release(self, sender: int) -> None:
-        """Let go whatever a sender holds."""
+        """Let go whatever a sender holds, or waits for."""
+        self._waiting = {waits: at for waits, at in self._waiting.items() if waits[1] != sender}
         self._claims = {name: claim for name, claim in self._claims.items() if claim.sender != sender}
 
     def clear(self) -> None:

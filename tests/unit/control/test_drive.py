@@ -302,3 +302,12 @@ def test_a_lever_pulled_while_another_drove_moves_nothing_until_it_acts_again() 
         assert not moves(robot.wait(0.06))
     assert robot.say(Pwm(390, 400), "b") is None
     assert moves(robot.wait(0.06))
+
+
+def test_who_let_go_while_another_drove_may_drive_at_once_when_it_is_free() -> None:
+    robot = Robot()
+    robot.say(FORWARD, "a")
+    assert robot.say(Pwm(390, 400), "b") is Refusal.HELD
+    robot.say(Pwm(375, 370), "b")
+    robot.say(Twist.planar(), "a")
+    assert robot.say(Pwm(390, 400), "b") is None
