@@ -3,7 +3,7 @@
 PYTHON ?= python3
 BIN := .venv/bin
 
-.PHONY: demo test lint format schemas bench faults clean
+.PHONY: demo test lint format schemas bench soak fuzz clean
 
 demo: .venv/installed
 	@$(BIN)/zteleop demo
@@ -27,8 +27,17 @@ bench: .venv/installed-dev
 	@for name in key_to_wheel publish_to_handler control_and_codec shell idle_cost flood; do \
 		$(BIN)/python benchmarks/$$name.py || exit 1; done
 
-faults: .venv/installed-dev
-	@cd tests && ../$(BIN)/python -m faults.table $(if $(I2C),--i2c) $(if $(TIMES),--times $(TIMES))
+# About two hours: each fault 50 times, every failure in every state, bad links, half an hour of floods.
+soak: .venv/installed-dev
+	$(BIN)/zteleop chaos --times 50
+	cd tests && ../$(BIN)/python -m faults.matrix
+	cd tests && ../$(BIN)/python -m faults.link.table
+	cd tests && ../$(BIN)/python -m faults.endurance
+
+fuzz: .venv/installed-dev
+	@$(BIN)/pip install --quiet --disable-pip-version-check --editable '.[fuzz]'
+	@cd tests && for target in $$(../$(BIN)/python -m fuzz.coverage --list); do \
+		../$(BIN)/python -m fuzz.coverage $$target --seconds $(or $(SECONDS_EACH),60) || exit 1; done
 
 clean:
 	rm -rf .venv

@@ -118,13 +118,13 @@ class Process:
 
     @property
     def child(self) -> int | None:
-        """The process that this one started and watches over, if there is one now."""
+        """The actuator that this process started and watches over, if there is one now."""
         pid = self.process.pid
-        try:
-            children = Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
-        except OSError:
-            return None
-        return int(children[0]) if children else None
+        with suppress(OSError):
+            for child in Path(f"/proc/{pid}/task/{pid}/children").read_text().split():
+                if b"--record" not in Path(f"/proc/{child}/cmdline").read_bytes().split(b"\0"):
+                    return int(child)
+        return None
 
     def ends(self, patience: float = PATIENCE) -> int:
         """Wait for the end; return the exit code."""
@@ -282,6 +282,11 @@ class Rig:
 
     def __exit__(self, *exc: object) -> None:
         self._stack.close()
+
+    def set(self, line: str) -> None:
+        """Add a setting to the robot's config file."""
+        config = self.folder / "config.toml"
+        config.write_text(f"{line}\n{config.read_text()}")
 
     @property
     def endpoint(self) -> str:

@@ -19,6 +19,9 @@ from zteleop.drivers.simulated import default_path
 from zteleop.errors import ConfigError
 from zteleop.inputs.levers import Steps
 
+LONGEST = 2**20
+"""bytes of a file: /dev/zero has no end, and half of a file may be another calibration"""
+
 
 class Config(Struct, frozen=True, forbid_unknown_fields=True):
     """Everything that can be set; without a file, a simulated car with Donkeycar's calibration."""
@@ -34,6 +37,8 @@ class Config(Struct, frozen=True, forbid_unknown_fields=True):
     """of a key press, for inputs that drive in steps"""
     journal: Literal["acts", "all", "off"] = "acts"
     """what a robot keeps of the commands on its disk: who acted, every one, nothing"""
+    blackbox: bool = True
+    """a robot keeps the last minute of every topic, and writes it when it stops, fails or crashes"""
     drivers: dict[str, dict[str, Any]] = {}
     """settings of each driver by name"""
 
@@ -60,7 +65,8 @@ def load(path: Path | None = None) -> Config:
     if path is None:
         return Config()
     try:
-        return parse(path.read_bytes())
+        with path.open("rb") as file:
+            return parse(file.read(LONGEST + 1))
     except OSError as error:
         raise ConfigError(f"cannot read {path}: {error.strerror}") from None
     except ConfigError as error:
@@ -69,6 +75,8 @@ def load(path: Path | None = None) -> Config:
 
 def parse(text: bytes) -> Config:
     """Return the settings a TOML text makes; raises ConfigError."""
+    if len(text) > LONGEST:
+        raise ConfigError(f"expected at most {LONGEST} bytes of settings, found more")
     try:
         values = msgspec.toml.decode(text)
         return msgspec.convert(values, Config)

@@ -273,12 +273,12 @@ def test_a_file_that_is_there_but_may_not_be_read_is_told(
 ) -> None:
     """Passed by, a robot would drive with a calibration that is not its own."""
 
-    def refuse(path: Path) -> bytes:
+    def refuse(path: Path, mode: str) -> bytes:
         raise PermissionError(13, "Permission denied", str(path))
 
     write(home / "here/config.toml", "robot = 'archangel'")
     monkeypatch.setattr(os, "access", lambda path, mode: False)
-    monkeypatch.setattr(Path, "read_bytes", refuse)
+    monkeypatch.setattr(Path, "open", refuse)
     with pytest.raises(ConfigError, match=r"^cannot read config\.toml: Permission denied$"):
         load()
 
@@ -290,3 +290,14 @@ def test_the_file_at_the_top_shows_everything_that_can_be_set() -> None:
     tables = json.loads((ROOT / "schemas/config.json").read_text())["$defs"].values()
     drivers = (Pca9685Settings.__struct_fields__, SimulatedSettings.__struct_fields__)
     assert set().union(*(table["properties"] for table in tables), *drivers) <= shown
+
+
+def test_a_file_without_end_is_not_read_to_it() -> None:
+    with pytest.raises(ConfigError, match=r"^/dev/zero: expected at most 1048576 bytes of settings"):
+        load(Path("/dev/zero"))
+
+
+def test_half_of_a_file_is_no_config(home: Path) -> None:
+    write(home / "here/config.toml", "robot = 'archangel'\n" + "#" * config.LONGEST + "\ndriver = 'pca9685'")
+    with pytest.raises(ConfigError, match="expected at most"):
+        load()

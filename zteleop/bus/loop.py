@@ -60,6 +60,14 @@ class Loop:
         self._ready.append(action)
         self._ring()
 
+    def fail(self, error: BaseException) -> None:
+        """Raise an error out of the present run, or the next; safe from any thread."""
+
+        def throw() -> None:
+            raise error
+
+        self.call_soon(throw)
+
     def call_next(self, action: Action) -> None:
         """Run an action in the next round; for the loop's own thread, which nobody need wake."""
         self._ready.append(action)

@@ -25,9 +25,14 @@ class Name(NamedTuple):
         return f"robot/{self.robot}/{self.path}"
 
 
+def is_robot(text: str) -> bool:
+    """Say whether a text can be a robot's name."""
+    return _ROBOT.fullmatch(text) is not None
+
+
 def robot_name(text: str) -> str:
     """Return a robot's name as it is; raises ConfigError when it is none."""
-    if not _ROBOT.fullmatch(text):
+    if not is_robot(text):
         raise ConfigError(
             f"a robot's name is 1 to 63 of a-z, 0-9, _ and -, starting with a letter or digit; found {text!r}"
         )

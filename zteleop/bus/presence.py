@@ -10,16 +10,17 @@ A type's slashes are dots; a process is its host and number. Zenoh removes a tok
 import os
 import re
 import socket
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import Any, Literal, NamedTuple
 
 import zenoh
 
-from zteleop.bus.names import Name
+from zteleop.bus.names import Name, is_robot
 from zteleop.messages import Message
 
 Kind = Literal["pub", "sub"]
 DEPARTURES = 100
+PUBLICATIONS = 200
 
 
 class Endpoint(NamedTuple):
@@ -62,6 +63,27 @@ class Departures:
         return int(name, 16) if left and set(name) <= set("0123456789abcdef") else None
 
 
+class Publications:
+    """An inbox of the paths on which a node of one robot has said that it publishes, past or to come."""
+
+    def __init__(self, session: zenoh.Session, robot: str) -> None:
+        self._ring: Any = session.liveliness().declare_subscriber(
+            f"robot/{robot}/live/pub/**", zenoh.handlers.RingChannel(PUBLICATIONS), history=True
+        )
+
+    def take(self) -> Iterator[str]:
+        """Yield each path that was told since the last call; anybody may tell anything."""
+        while (sample := self._ring.try_recv()) is not None:
+            path = _path(str(sample.key_expr))
+            if path and sample.kind == zenoh.SampleKind.PUT:
+                yield path
+
+
+def _path(key: str) -> str | None:
+    parts = key.split("/", 7)
+    return parts[7] if len(parts) == 8 and key.isprintable() and not set("*+") & set(key) else None
+
+
 def endpoint_key(name: Name, kind: Kind, node: str, types: Iterable[type[Message]]) -> str:
     ros_type = next((t.ros_type for t in types), "any").replace("/", ".")
     return f"robot/{name.robot}/live/{kind}/{node}/{process()}/{ros_type}/{name.path.replace('*', '+')}"
@@ -73,7 +95,7 @@ def endpoints(session: zenoh.Session) -> list[Endpoint]:
     for kind in ("pub", "sub"):
         for key in _tokens(session, f"robot/*/live/{kind}/**"):
             parts = key.split("/", 7)
-            if len(parts) == 8 and key.isprintable():  # anybody may declare anything
+            if len(parts) == 8:
                 _, robot, _, _, node, where, ros_type, topic = parts
                 ros_type, topic = ros_type.replace(".", "/"), topic.replace("+", "*")
                 found.add(Endpoint(robot, kind, node, where, ros_type, topic))
@@ -87,8 +109,12 @@ def holders(session: zenoh.Session, robot: str, node: str) -> list[str]:
 
 def robots(session: zenoh.Session) -> list[str]:
     """Return the robots that have an actuator."""
-    return sorted({key.split("/")[1] for key in _tokens(session, "robot/*/live/node/actuator/*")})
+    found = {key.split("/")[1] for key in _tokens(session, "robot/*/live/node/actuator/*")}
+    return sorted(filter(is_robot, found))
 
 
 def _tokens(session: zenoh.Session, selector: str) -> set[str]:
-    return {str(reply.ok.key_expr) for reply in session.liveliness().get(selector, timeout=2.0) if reply.ok}
+    """Return the keys of the tokens there are; anybody may declare anything, also for every robot at once."""
+    replies = session.liveliness().get(selector, timeout=2.0)
+    keys = {str(reply.ok.key_expr) for reply in replies if reply.ok}
+    return {key for key in keys if key.isprintable() and "*" not in key}

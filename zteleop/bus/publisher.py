@@ -34,7 +34,7 @@ class Publisher(Generic[M]):
 
     @property
     def matched(self) -> bool:
-        """Somebody subscribes to this topic."""
+        """Somebody subscribes to this topic; the black box of a robot counts as well."""
         # The stub calls it a bool; it is an object, and always true.
         return bool(getattr(self._publisher.matching_status, "matching"))  # noqa: B009
 

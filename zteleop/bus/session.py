@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 import zenoh
 from msgspec import Meta, Struct
 
+from zteleop.bus import linger
 from zteleop.errors import BusError, ConfigError
 
 PORT = 7447
@@ -26,6 +27,11 @@ _ONE_THREAD = _THREADS.format(rx="handover:app", tx="handover:app")
 """Half the latency of an idle link."""
 _APART = _THREADS.format(rx="worker_threads:1", tx="worker_threads:1")
 """For who passes messages on: receiving may wait for sending, and one thread would wait for itself."""
+_POOL = r"(acc|app|net|rx|tx):\((?:worker_threads:[1-9]\d?|handover:(?:acc|app|net|rx|tx))\)"
+_POOLS = re.compile(rf"\({_POOL}(,{_POOL})*\)")
+_PATIENCE_US = 100_000
+"""for who passes messages on: a client that takes none for so long is let go, before it holds up the commands
+of others; zenoh's own patience is 5 s"""
 _RETRY = 0.1
 _QUIET, _SETTLED = 0.06, 0.5
 
@@ -51,11 +57,12 @@ def open_session(settings: BusSettings, *, settle: bool = False, door: bool = Fa
 
     Raises ConfigError for an endpoint that is none, BusError when there is no router to a client.
     """
-    config = _configure(settings, settle)
+    config = _configure(settings, settle, door)
     give_up = time.monotonic() + settings.patience
     while True:
         try:
             session = _open(config, door or settings.mode == "router")
+            linger.forbid(session)
             if settle:
                 _settle(session)
             return session
@@ -67,13 +74,21 @@ def open_session(settings: BusSettings, *, settle: bool = False, door: bool = Fa
 
 def _open(config: zenoh.Config, door: bool) -> zenoh.Session:
     """Open with the threads that suit; zenoh looks at them once, and no child process should inherit them."""
-    if _RUNTIME in os.environ:
+    if wanted := os.environ.get(_RUNTIME):
+        _check_threads(wanted)
         return zenoh.open(config)
     os.environ[_RUNTIME] = _APART if door else _ONE_THREAD
     try:
         return zenoh.open(config)
     finally:
         del os.environ[_RUNTIME]
+
+
+def _check_threads(text: str) -> None:
+    """Raise ConfigError for what zenoh would not only refuse, but die of."""
+    pools = re.findall(_POOL, text)
+    if not _POOLS.fullmatch(text) or len(set(pools)) != len(pools):
+        raise ConfigError(f"{_RUNTIME} is such as {_APART}, found {text!r}; correct it, or unset it")
 
 
 def _settle(session: zenoh.Session) -> None:
@@ -96,7 +111,7 @@ def _await_quiet(session: zenoh.Session) -> None:
         time.sleep(0.005)
 
 
-def _configure(settings: BusSettings, settle: bool) -> zenoh.Config:
+def _configure(settings: BusSettings, settle: bool, door: bool = False) -> zenoh.Config:
     for endpoint in (*settings.connect, *settings.listen):
         if not _ENDPOINT.match(endpoint):
             raise ConfigError(
@@ -114,9 +129,12 @@ def _configure(settings: BusSettings, settle: bool) -> zenoh.Config:
         "scouting/delay": 500 if settle and settings.multicast else 0,
         "transport/shared_memory/enabled": False,
         "transport/link/rx/max_message_size": settings.largest,
+        "transport/unicast/open_timeout": 3000,  # ms; a close waits for an attempt to connect
         "transport/link/tx/lease": 1000,
         "transport/link/tx/keep_alive": 4,
     }
+    if door or settings.mode == "router":
+        values["transport/link/tx/queue/congestion_control/block/wait_before_close"] = _PATIENCE_US
     if settings.listen:
         values["listen/endpoints"] = settings.listen
     config = zenoh.Config()
@@ -124,7 +142,8 @@ def _configure(settings: BusSettings, settle: bool) -> zenoh.Config:
         try:
             config.insert_json5(key, json.dumps(value))
         except zenoh.ZError as error:
-            raise ConfigError(f"bus: {value!r} cannot be {key}: {error}") from None
+            reason = str(error).partition(" at /")[0]
+            raise ConfigError(f"bus: {value!r} cannot be {key}: {reason}") from None
     return config
 
 

@@ -114,7 +114,7 @@ class Pump(Generic[T]):
         self._emptied = threading.Lock()  # held while the loop is at work; an Event costs three times as much
         self._emptied.acquire()
         self._closed = False
-        self._thread = threading.Thread(target=self._wait, daemon=True)
+        self._thread = threading.Thread(target=self._run, name="inbox", daemon=True)
         self._thread.start()
 
     def close(self) -> None:
@@ -122,6 +122,12 @@ class Pump(Generic[T]):
         self._closed = True
         self._go_on()
         self._thread.join()
+
+    def _run(self) -> None:
+        try:
+            self._wait()
+        except BaseException as error:  # an inbox that nobody empties any more must not go unnoticed
+            self._loop.fail(error)
 
     def _wait(self) -> None:
         receive = self._subscription.ring.recv

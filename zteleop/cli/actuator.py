@@ -18,6 +18,7 @@ from zteleop.drivers.output_enable import OutputEnable
 from zteleop.errors import ConfigError, DeviceError
 from zteleop.nodes import realtime
 from zteleop.nodes.child import Child
+from zteleop.nodes.recorder import Recorder
 from zteleop.nodes.stop_file import StopFile
 from zteleop.nodes.watchdog import Watchdog
 
@@ -27,6 +28,7 @@ LONGEST_PLACE = 70
 """characters of a folder for the private socket, whose whole path may have a hundred"""
 PRIORITY, OOM_SCORE = 20, -900
 CHILD = [sys.executable, "-m", "zteleop", "actuator"]
+RECORDER = [*CHILD, "--record"]
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -47,15 +49,20 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="what to keep of the commands on disk: who acted (default), every one, nothing",
     )
     parser.add_argument("--link", type=int, help=argparse.SUPPRESS)
+    parser.add_argument("--record", action="store_true", help=argparse.SUPPRESS)
     options.add_parent(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Watch over an actuator, or with --link be the one that is watched."""
+    """Watch over an actuator, or with --link be the one that is watched, with --record its black box."""
     if arguments.link is not None:
         from zteleop.cli import obey  # what the watchdog itself need not hold in memory
 
         return obey.run(arguments.link)
+    if arguments.record:
+        from zteleop.cli import record
+
+        return record.run()
     settings = options.load(arguments)
     robot = settings.robot or config.own_name()
     name = arguments.driver or settings.driver
@@ -80,8 +87,9 @@ def run(arguments: argparse.Namespace) -> int:
         _privileges(node)
         orders = msgspec.json.encode(msgspec.structs.replace(tuned, bus=childs_bus))
         child = Child(CHILD, orders, hand.shared())
+        recorder = Recorder(RECORDER, orders, node.log.warn) if tuned.blackbox else None
         stop_file = StopFile(config.state_folder(robot) / "stop", node.log.error)
-        return Watchdog(node, tuned.drive, hand, child, stop_file, _switch(node, pin)).run()
+        return Watchdog(node, tuned.drive, hand, child, stop_file, _switch(node, pin), recorder).run()
 
 
 @contextmanager
@@ -143,9 +151,9 @@ def _tuned(settings: Config, arguments: argparse.Namespace, tick_us: float) -> D
         values["limits"]["pulse_duty"] = arguments.pulse_duty
     if arguments.neutral_offset and "throttle" not in values["servos"]:
         raise ConfigError("--neutral-offset shifts the throttle's neutral, and this vehicle has no throttle")
-    if arguments.neutral_offset:
-        values["servos"]["throttle"]["neutral_us"] += arguments.neutral_offset * tick_us
     try:
+        if arguments.neutral_offset:
+            values["servos"]["throttle"]["neutral_us"] += arguments.neutral_offset * tick_us
         return msgspec.convert(values, DriveSettings)
-    except msgspec.ValidationError as error:
+    except (msgspec.ValidationError, OverflowError) as error:
         raise ConfigError(f"{error}") from None

@@ -47,7 +47,7 @@ def _samples(subscriber: Any, timeout: float | None, key: str) -> Iterator[zenoh
     while True:
         give_up = time.monotonic() + timeout
         while (sample := subscriber.try_recv()) is None:
-            if time.monotonic() > give_up:
+            if not time.monotonic() <= give_up:  # NaN as well
                 raise BusError(f"nothing was said on {key} for {timeout:g} s; zteleop list shows the topics")
             time.sleep(0.002)
         yield sample
@@ -58,13 +58,22 @@ def _print(sample: zenoh.Sample, as_json: bool) -> bool:
     if sample.kind != zenoh.SampleKind.PUT:
         return False
     try:
-        values = codec.decode_any(bytes(sample.payload), str(sample.encoding))
+        text = render(bytes(sample.payload), str(sample.encoding), as_json)
     except MessageError as error:
         print(printable(f"{sample.key_expr}: {error}"), file=sys.stderr)
         return False
-    text = msgspec.json.encode(values).decode() if as_json else _yaml(values)
-    print(printable(text, keep="\n"), flush=True)
+    print(text, flush=True)
     return True
+
+
+def render(payload: bytes, encoding: str, as_json: bool) -> str:
+    """Return a message as text that is safe to print; raises MessageError when it cannot be read."""
+    values = codec.decode_any(payload, encoding)
+    try:
+        text = msgspec.json.encode(values).decode() if as_json else _yaml(values)
+    except RecursionError:  # read as JSON it may be, but YAML is written with a deeper stack
+        raise MessageError(f"{len(payload)} bytes of {encoding!r}, nested too deeply to show") from None
+    return printable(text, keep="\n")
 
 
 def _yaml(values: Any) -> str:

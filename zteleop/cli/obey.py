@@ -1,6 +1,7 @@
 """The actuator proper: `zteleop actuator` starts it, and watches over it."""
 
 import sys
+from pathlib import Path
 
 import msgspec
 
@@ -8,9 +9,12 @@ from zteleop import config
 from zteleop.bus.node import Node
 from zteleop.config import Config
 from zteleop.drivers import open_driver
+from zteleop.errors import ConfigError, DeviceError
 from zteleop.nodes import link, realtime
 from zteleop.nodes.actuator import Actuator
+from zteleop.nodes.health import Health
 from zteleop.nodes.journal import Journal
+from zteleop.nodes.link import ActuatorEnd
 from zteleop.nodes.stop_file import StopFile
 
 PRIORITY, OOM_SCORE = 10, -800
@@ -18,8 +22,9 @@ PRIORITY, OOM_SCORE = 10, -800
 
 def run(number: int) -> int:
     """Obey commands with the settings on stdin, under the watchdog at the other end of a socket."""
-    settings = msgspec.json.decode(sys.stdin.buffer.read(), type=Config)
+    settings = orders(sys.stdin.buffer.read())
     robot = settings.robot or ""
+    end = _adopt(number)
     realtime.take(PRIORITY, OOM_SCORE)  # what is refused, the watchdog was refused as well, and says so
     with Node("actuator", robot, settings.bus) as node:
         folder = config.state_folder(robot)
@@ -28,8 +33,26 @@ def run(number: int) -> int:
             node,
             settings.drive,
             open_driver(settings.driver, chip, exclusive=False),
-            link.adopt(number),
+            end,
             StopFile(folder / "stop", node.log.error),
             Journal(folder, settings.journal, node.log.warn),
+            Health(Path("/sys"), node.log),
         ).run()
     return 0
+
+
+def orders(text: bytes) -> Config:
+    """Return the settings that a watchdog gives its actuator; raises ConfigError."""
+    try:
+        return msgspec.json.decode(text, type=Config)
+    except (msgspec.MsgspecError, ValueError, RecursionError) as error:
+        raise ConfigError(
+            f"expected a watchdog's settings on standard input: {error}; zteleop actuator starts both"
+        ) from None
+
+
+def _adopt(number: int) -> ActuatorEnd:
+    try:
+        return link.adopt(number)
+    except (OSError, ValueError, OverflowError):
+        raise DeviceError(f"file {number} is no watchdog's; zteleop actuator starts both") from None

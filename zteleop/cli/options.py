@@ -92,6 +92,13 @@ def join(name: str, settings: Config) -> Node:
         raise
 
 
+def count(text: str) -> int:
+    """Return how often, as typed; at least once."""
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"at least once is meant, found {text}")
+    return int(text)
+
+
 def _robot(text: str) -> str:
     try:
         return robot_name(text)

@@ -1,15 +1,19 @@
 """Runs one verb: its arguments, its errors in one sentence, its exit code."""
 
 import argparse
+import io
 import sys
 from importlib import import_module
 
 from zteleop.bus import signals
+from zteleop.bus.escape import printable
 from zteleop.errors import ZteleopError
 
 
 def run_verb(verb: str, text: str, arguments: list[str]) -> int:
     """Run a verb and return its exit code; a traceback only with --debug."""
+    if isinstance(sys.stdout, io.TextIOWrapper):  # what a terminal cannot show must not end what shows it
+        sys.stdout.reconfigure(errors="backslashreplace")
     module = import_module(f"zteleop.cli.{verb}")
     parser = argparse.ArgumentParser(prog=f"zteleop {verb}", description=f"{text[0].upper()}{text[1:]}.")
     parser.add_argument("--debug", action="store_true", help="show the traceback of an error")
@@ -33,5 +37,5 @@ def run_verb(verb: str, text: str, arguments: list[str]) -> int:
 
 
 def _fail(verb: str, words: str) -> int:
-    print(f"zteleop {verb}: {words}", file=sys.stderr)
+    print(printable(f"zteleop {verb}: {words}", keep="\n"), file=sys.stderr)
     return 1

@@ -16,7 +16,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> None:
     with options.join("why", options.load(arguments)) as node:
-        print(printable(explain(node), keep="\n"))
+        print(explain(node))
 
 
 def explain(node: Node) -> str:
@@ -41,7 +41,7 @@ def explain(node: Node) -> str:
     ]
     lines += [f"  {layer.name:9} {layer.says}" for layer in (why.layers if why else [])]
     lines.append(f"  {'watchdog':9} {describe(dog) if dog else 'is not heard'}")
-    return "\n".join(lines)
+    return "\n".join(map(printable, lines))
 
 
 def describe(dog: WatchdogStatus) -> str:

@@ -31,6 +31,13 @@ class Calibration:
         """Return the wheels that ticks ask for, beyond 1 where they exceed the range."""
         return {name: self._servos[name].fraction(width) for name, width in self._widths(pwm).items()}
 
+    def at_rest(self, pulse_us: Mapping[int, float | None]) -> bool:
+        """Say whether these pulses are neutral, to half a tick, or none at all."""
+        return all(
+            width is None or abs(width - self.neutral_us[channel]) <= self._tick_us / 2
+            for channel, width in pulse_us.items()
+        )
+
     def exceeds(self, pwm: Pwm) -> bool:
         """Say whether ticks lie beyond the ends, by more than rounding."""
         return any(

@@ -6,12 +6,13 @@ from typing import NamedTuple
 from msgspec import Struct, field
 
 from zteleop.control.calibration import Calibration
+from zteleop.control.cap import Bound, Cap, CapSettings
 from zteleop.control.gate import Deadlines, Gate, Refusal
 from zteleop.control.hold import HOLDS, Holds
 from zteleop.control.limiter import Limits, TwistLimiter, WheelLimiter
 from zteleop.control.mixer import Ackermann, Mixer, Wheels
 from zteleop.control.mux import Claim, Mux, Source
-from zteleop.control.proof import Proof, Prover
+from zteleop.control.proof import NEVER, Proof, Prover
 from zteleop.control.servo import Servo
 from zteleop.control.stop import Latch, describe
 from zteleop.messages import Beat, Pwm, State, Stop, Twist
@@ -42,6 +43,7 @@ class DriveSettings(Struct, frozen=True, forbid_unknown_fields=True):
     sources: dict[str, Source] = {}
     """besides, or instead of, those every robot knows"""
     limits: Limits = Limits()
+    cap: CapSettings = CapSettings()
     deadlines: Deadlines = Deadlines()
 
     @property
@@ -73,6 +75,7 @@ class Step(NamedTuple):
     claim: Claim | None
     wheels: Wheels
     pulse_us: dict[int, float]
+    bound: Bound
 
 
 class Drive:
@@ -91,6 +94,7 @@ class Drive:
         self.gate = Gate(settings.deadlines, epoch, now, grace)
         self._sources = settings.known_sources
         self.mux = mux or Mux(self._sources, settings.deadlines.operator)
+        self.cap = Cap(settings.cap, settings.limits.speed_of(settings.mixer), self._sources)
         self.refused = self.clamped = 0
         self.refusals: dict[str, Refused] = {}
         self.latch = Latch()
@@ -146,24 +150,34 @@ class Drive:
         if isinstance(command, Pwm) and not isinstance(self.settings.mixer, Ackermann):
             return self._refuse(source, Refusal.NO_SUCH_CHANNEL, now)
         moving = self._moves(command)
-        if proof is None and self._sources[source].trust == "arrival":
+        unproven = proof is None and self._sources[source].trust == "arrival"
+        if unproven:
             proof = self._vouch(source, moving, now)
         refusal = self._judge(source, command, proof, moving, now)
+        if proof and moving:
+            self._measure(source, proof, NEVER if unproven else proof.beat, refusal, now)
         if refusal:
             return self._refuse(source, refusal, now)
         if isinstance(command, Pwm):
             self.clamped += self.calibration.exceeds(command)
         return None
 
+    def is_foreign(self, claim: Claim) -> bool:
+        """Say whether a claim is trusted by its arrival alone."""
+        prover = self._foreign.get(claim.source)
+        return prover is not None and prover.sender == claim.sender
+
     def step(self, now: float) -> Step:
         """Decide the pulses of now."""
         self._stepped = now
         claim = self.mux.select(now) if not self.holds else None
-        wheels = self._wheel_limiter.limit(self._obey(claim, now), now)
+        bound = self.cap.find(claim.source, now) if claim else self.cap.rest()
+        wheels = self._wheel_limiter.limit(self._obey(claim, bound.speed, now), now)
         if claim is None or wheels is None:
-            return Step(*self._explain_rest(now), None, self.calibration.rest, self.calibration.neutral_us)
+            rest, neutral_us = self.calibration.rest, self.calibration.neutral_us
+            return Step(*self._explain_rest(now), None, rest, neutral_us, bound)
         pulse_us = self.calibration.pulse_us(wheels)
-        return Step("driving", f"{claim.source} drives", claim, wheels, pulse_us)
+        return Step("driving", f"{claim.source} drives", claim, wheels, pulse_us, bound)
 
     def _refuse(self, source: str, refusal: Refusal, now: float) -> Refusal:
         self.refused += 1
@@ -189,6 +203,8 @@ class Drive:
         fell_silent = newest.at + self._sources[newest.source].silence
         if self.mux.idle(newest, min(now, fell_silent)):  # which deadline was the first to pass
             return "operator idle", f"no act on {newest.source} for {now - newest.acted:.1f} s"
+        if now < fell_silent:
+            return "link lost", f"{newest.source} has not heard the robot for {now - newest.beat:.1f} s"
         return "link lost", f"{newest.source} has been silent for {now - newest.at:.1f} s"
 
     def _judge(
@@ -204,8 +220,16 @@ class Drive:
         if self.holds:
             return Refusal.AT_REST
         self._gone = None
-        claim = Claim(source, proof.sender, command, proof.acted, now, proof.seq)
+        claim = Claim(source, proof.sender, command, proof.acted, now, proof.seq, proof.beat)
         return None if self.mux.offer(claim) else Refusal.HELD
+
+    def _measure(self, source: str, proof: Proof, beat: float, refusal: Refusal | None, now: float) -> None:
+        """Note how old a command was; what cannot prove it counts as old as a command may be."""
+        age, oldest = now - beat, self.settings.deadlines.max_age
+        if refusal is None:
+            self.cap.note(source, proof.sender, min(age, oldest), now)
+        elif refusal is Refusal.STALE and age > oldest:
+            self.cap.note_late(source, proof.sender, oldest, now)
 
     def _vouch(self, source: str, moving: bool, now: float) -> Proof | None:
         """Make the proof of a foreign sender from its arrival: each command is an act of now."""
@@ -225,16 +249,15 @@ class Drive:
             return not self.calibration.neutral(command)
         return command.linear.x != 0 or command.angular.z != 0
 
-    def _obey(self, claim: Claim | None, now: float) -> Wheels | None:
+    def _obey(self, claim: Claim | None, max_speed: float, now: float) -> Wheels | None:
         if claim is None:
             self._limiter.limit(None, now)
             return None
-        cap = self._sources[claim.source].max_speed
         if isinstance(claim.command, Twist):
-            twist = self._limiter.limit(claim.command, now, cap)
+            twist = self._limiter.limit(claim.command, now, max_speed)
             return self.settings.mixer.mix(twist) if twist else None
         self._limiter.limit(None, now)
-        wheels = self._wheel_limiter.cap(self.calibration.wheels(claim.command), cap)
+        wheels = self._wheel_limiter.cap(self.calibration.wheels(claim.command), max_speed)
         self._limiter.follow(self.settings.mixer.unmix(wheels))
         return wheels
 

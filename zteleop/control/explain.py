@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from zteleop.control import curvature
+from zteleop.control.cap import Bound
 from zteleop.control.drive import Drive, Step
 from zteleop.control.mux import Claim
 from zteleop.messages import Layer, Pwm, Twist
@@ -20,6 +21,7 @@ def layers(drive: Drive, step: Step, now: float) -> list[Layer]:
         Layer("mux", _mux(drive, step, now)),
         Layer("gate", _gate(drive, now)),
         Layer("rest", _rest(drive, step, now)),
+        Layer("cap", _cap(drive, step)),
         Layer("limiter", _limiter(drive, step)),
         Layer("wheels", _wheels(drive, step)),
     ]
@@ -59,22 +61,59 @@ def _rest(drive: Drive, step: Step, now: float) -> str:
     return "free to move" if step.claim else f"{step.state}: {step.why}"
 
 
+def _cap(drive: Drive, step: Step) -> str:
+    bound, top = step.bound, _metres(drive.cap.top)
+    if bound.by != "vehicle":
+        return f"{_metres(bound.speed)} of {top} m/s: {slowed(drive, step)}{_distance(drive, step)}"
+    return f"{top} m/s: {_age(drive, step.claim, bound) if step.claim else 'nobody drives'}"
+
+
+def slowed(drive: Drive, step: Step) -> str:
+    """Return why the vehicle may not go as fast as it can; nothing when it may."""
+    claim, bound = step.claim, step.bound
+    if bound.by == "strain":
+        return drive.cap.strain.why
+    if claim is None or bound.by == "vehicle":
+        return ""
+    if bound.by == "source":
+        return f"{claim.source} may drive no faster here"
+    return _age(drive, claim, bound)
+
+
+def _age(drive: Drive, claim: Claim, bound: Bound) -> str:
+    if drive.is_foreign(claim):
+        return f"commands of {claim.source} cannot prove their age"
+    return f"commands of {claim.source} are up to {bound.latency * 1000:.0f} ms old"
+
+
+def _distance(drive: Drive, step: Step) -> str:
+    if step.bound.by != "link":
+        return ""
+    distance = drive.settings.cap.stopping_distance
+    return f", and it must stop {f'within {distance:g} m' if distance else 'as soon as on a good link'}"
+
+
+def _metres(speed: float) -> str:
+    return f"{round(speed, 2):g}"
+
+
 def _limiter(drive: Drive, step: Step) -> str:
     if step.claim is None:
         return "nothing to limit"
     asked, applied = wanted(drive, step), drive.settings.mixer.unmix(step.wheels)
     if _near(asked, applied):
         return "passes it on as asked"
-    bounds = "; ".join(_bounds(drive, step.claim, asked, applied)) or "the wheels can do no better"
+    bounds = "; ".join(_bounds(drive, step, step.claim, asked, applied)) or "the wheels can do no better"
     return f"makes it {_twist(applied)}: {bounds}"
 
 
-def _bounds(drive: Drive, claim: Claim, asked: Twist, applied: Twist) -> Iterator[str]:
+def _bounds(drive: Drive, step: Step, claim: Claim, asked: Twist, applied: Twist) -> Iterator[str]:
     """Yield what bounds a claim."""
     mixer, limits = drive.settings.mixer, drive.settings.limits
-    speed = limits.speed_of(mixer, drive.settings.known_sources[claim.source].max_speed)
+    speed = step.bound.speed
     if abs(asked.linear.x) > speed + _LEAST:
-        yield f"{claim.source} may drive {speed:g} m/s here"
+        capped = step.bound.by in ("link", "strain")
+        yield f"the cap is {_metres(speed)} m/s" if capped else f"{claim.source} may drive {speed:g} m/s here"
     best = mixer.unmix(mixer.mix(asked))
     if abs(applied.linear.x) < min(abs(best.linear.x), speed) - _LEAST:
         yield f"speed changes by {limits.acceleration:g} m/s^2"

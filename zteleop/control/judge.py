@@ -49,7 +49,6 @@ class Judge:
         claims = Claims(later.known_sources, later.deadlines.operator)
         self._drive = Drive(later, tick_us, -1, now, claims, GRACE)
         self.neutral_us = self._drive.calibration.neutral_us
-        self._tick_us = tick_us
         self._epoch = -1
         self._stopped: float | None = None
         self._last_stopped = now
@@ -93,10 +92,7 @@ class Judge:
 
     def at_rest(self, pulse_us: Mapping[int, float | None]) -> bool:
         """Say whether these pulses are neutral, to half a tick, or none at all."""
-        return all(
-            width is None or abs(width - self.neutral_us[channel]) <= self._tick_us / 2
-            for channel, width in pulse_us.items()
-        )
+        return self._drive.calibration.at_rest(pulse_us)
 
     def look(self, pulse_us: Mapping[int, float | None], now: float) -> str | None:
         """Compare the chip with what may be; return why a stop must be engaged, if it must."""

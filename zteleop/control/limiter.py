@@ -30,7 +30,7 @@ class Limits(Struct, frozen=True, forbid_unknown_fields=True):
 
     def speed_of(self, mixer: Mixer, cap: float | None = None) -> float:
         """Return the highest speed, in m/s, of a vehicle, and of a source that is capped."""
-        return min(bound for bound in (cap, self.speed, mixer.max_speed) if bound)
+        return min(bound for bound in (cap, self.speed, mixer.max_speed) if bound is not None)
 
     def turn_of(self, mixer: Mixer) -> float:
         """Return the highest yaw rate, in rad/s, of a vehicle."""
@@ -58,7 +58,8 @@ class TwistLimiter:
         if wanted is None:
             self.follow(None)
             return None
-        speed, turn = self._scale(wanted.linear.x, wanted.angular.z, max_speed or self._speed)
+        bound = self._speed if max_speed is None else max_speed
+        speed, turn = self._scale(wanted.linear.x, wanted.angular.z, bound)
         if self._steers:
             self._last = self._steer(speed, curvature.of(wanted.linear.x, wanted.angular.z), dt)
         else:

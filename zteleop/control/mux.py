@@ -24,6 +24,8 @@ class Source(Struct, frozen=True, forbid_unknown_fields=True):
     """m/s"""
 
 
+HEARD_LATE = 0.1
+"""s that a sender may have heard the robot before it is heard itself, without its silence counting sooner"""
 WAITING = 64
 """How many senders that wait are remembered."""
 
@@ -37,6 +39,8 @@ class Claim(NamedTuple):
     acted: float
     at: float
     seq: int
+    beat: float
+    """The newest of the robot's that its sender had heard."""
 
 
 class Mux:
@@ -84,7 +88,9 @@ class Mux:
         return None
 
     def silent(self, claim: Claim, now: float) -> bool:
-        return not now - claim.at <= self._sources[claim.source].silence
+        """Say whether a claim is over: nothing more was heard of its sender, or by its sender."""
+        silence = self._sources[claim.source].silence
+        return not (now - claim.at <= silence and now - claim.beat <= silence + HEARD_LATE)
 
     def idle(self, claim: Claim, now: float) -> bool:
         return not now - claim.acted <= self._operator_silence

@@ -1,7 +1,7 @@
 """What an actuator says of itself."""
 
 from zteleop.control.drive import Drive, DriveSettings, Step
-from zteleop.control.explain import wanted
+from zteleop.control.explain import slowed, wanted
 from zteleop.messages import DriveStatus, Vehicle
 
 
@@ -37,4 +37,7 @@ def status(drive: Drive, step: Step, written: float) -> DriveStatus:
         stop=drive.latch.stop.id if drive.latch.stop else 0,
         refused=drive.refused,
         clamped=drive.clamped,
+        max_speed=step.bound.speed,
+        latency=step.bound.latency,
+        slowed=slowed(drive, step),
     )

@@ -4,7 +4,7 @@ Data sheet rev. 4, section 7.3; what a servo sees of it is `registers.read_pulse
 """
 
 from collections.abc import Iterable, Iterator
-from mmap import mmap
+from typing import Protocol
 
 from zteleop.drivers.i2c import EREMOTEIO, Block
 from zteleop.drivers.registers import (
@@ -35,10 +35,18 @@ POWER_UP = b"".join(
 )
 
 
+class Memory(Protocol):
+    """Bytes that can be read and changed in slices."""
+
+    def __getitem__(self, place: slice, /) -> bytes: ...
+
+    def __setitem__(self, place: slice, data: bytes, /) -> None: ...
+
+
 class Chip:
     """Answers transactions; `memory` holds the registers and is shared with whoever watches."""
 
-    def __init__(self, memory: bytearray | mmap) -> None:
+    def __init__(self, memory: Memory) -> None:
         self.memory = memory
 
     def power_up(self) -> None:

@@ -3,6 +3,7 @@
 import fcntl
 import os
 from mmap import mmap
+from typing import Self
 
 from zteleop.drivers.chip import POWER_UP, SIZE
 from zteleop.errors import DeviceError
@@ -25,22 +26,65 @@ def open_file(path: str) -> int:
             os.close(file)
             raise
         return file
-    except OSError as error:
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the path
         raise _refusal(path, error) from error
 
 
-def map_file(path: str, access: int) -> mmap:
+class ChipMemory:
+    """The bytes of the chip in a file; when another file takes its place, those of that one.
+
+    A chip whose file is removed is one that has lost its supply: the next is switched on. Whoever held
+    on to the old bytes would go on seeing, or writing, pulses that nobody else sees.
+    """
+
+    def __init__(self, path: str, access: int) -> None:
+        self._path, self._access = path, access
+        self._open()
+
+    def __getitem__(self, place: slice) -> bytes:
+        return self._present()[place]
+
+    def __setitem__(self, place: slice, data: bytes) -> None:
+        self._present()[place] = data
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        self._memory.close()
+
+    def _present(self) -> mmap:
+        try:
+            found = os.stat(self._path)
+            same = (found.st_ino, found.st_size) == (self._number, FILE_SIZE)
+        except OSError:
+            same = False
+        if not same:  # of a file that somebody cut short, the bytes that are gone must not be touched
+            before = self._memory
+            self._open()
+            before.close()
+        return self._memory
+
+    def _open(self) -> None:
+        file = open_file(self._path)
+        try:
+            self._memory = mmap(file, FILE_SIZE, access=self._access)
+            self._number = os.fstat(file).st_ino
+        except (OSError, ValueError) as error:  # ValueError: cut short meanwhile
+            raise _refusal(self._path, error) from error
+        finally:
+            os.close(file)
+
+
+def map_file(path: str, access: int) -> ChipMemory:
     """Return the chip in that file as memory; switch it on if there is none.
 
     Raises DeviceError when the file cannot be opened.
     """
-    file = open_file(path)
-    try:
-        return mmap(file, FILE_SIZE, access=access)
-    except OSError as error:
-        raise _refusal(path, error) from error
-    finally:
-        os.close(file)
+    return ChipMemory(path, access)
 
 
 def _switch_on(file: int) -> None:
@@ -54,6 +98,6 @@ def _switch_on(file: int) -> None:
     fcntl.flock(file, fcntl.LOCK_UN)  # a mapping keeps a copy of the file open, and with it the lock
 
 
-def _refusal(path: str, error: OSError) -> DeviceError:
-    words = f"cannot open the simulated chip {path}: {error.strerror}; set path under [drivers.simulated]"
-    return DeviceError(words)
+def _refusal(path: str, error: OSError | ValueError) -> DeviceError:
+    why = error.strerror if isinstance(error, OSError) else error
+    return DeviceError(f"cannot open the simulated chip {path}: {why}; set path under [drivers.simulated]")

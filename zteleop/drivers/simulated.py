@@ -7,13 +7,13 @@ Like the chip it outlives its drivers, keeps the last pulse of a killed one, and
 import os
 import time
 from collections.abc import Sequence
-from mmap import ACCESS_READ, ACCESS_WRITE, mmap
+from mmap import ACCESS_READ, ACCESS_WRITE
 from typing import Annotated, Self
 
 from msgspec import Meta, Struct
 
 from zteleop.drivers.chip import SIZE, Chip
-from zteleop.drivers.chip_file import FAULTS, map_file
+from zteleop.drivers.chip_file import FAULTS, ChipMemory, map_file
 from zteleop.drivers.faults import Fault, cut, take
 from zteleop.drivers.i2c import EREMOTEIO, Block
 from zteleop.drivers.pca9685 import Pca9685, Pca9685Settings
@@ -72,7 +72,7 @@ class SimulatedI2C:
         self.transfer(address, blocks)
 
     def close(self) -> None:
-        if isinstance(self.chip.memory, mmap):
+        if isinstance(self.chip.memory, ChipMemory):
             self.chip.memory.close()
 
     def _select(self, address: int) -> None:
@@ -86,7 +86,7 @@ class SimulatedI2C:
 class Registers:
     """A chip's registers seen from outside: whoever holds this cannot write them."""
 
-    def __init__(self, memory: mmap) -> None:
+    def __init__(self, memory: ChipMemory) -> None:
         self._memory = memory
 
     def snapshot(self) -> bytes:

@@ -56,12 +56,13 @@ def heading(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
     reason = wrap(why(d, unicode), columns)
     if columns < WIDE:
         rows = [Line(0, word), Line(7, robot), *([line(4, who)] if who else [])]
-        return [*rows, *(line(2 + i, text) for i, text in enumerate(reason[:5]))]
+        rows += [line(2 + i, text) for i, text in enumerate(reason[:5])]
+        return rows + slowed(d, columns, unicode)
     word += [Span(f", {who}")] if who else []
     gap = columns - sum(width(span.text) for span in robot + word)
-    reason = [*reason, "", ""][:2]
+    reasons = [line(2 + i if text else 9, text) for i, text in enumerate(reason)]
     top = [*robot, Span(" " * gap), *word] if gap > 0 else word
-    return [Line(0, top), *(line(2 + i if text else 9, text) for i, text in enumerate(reason))]
+    return [Line(0, top), *[*reasons, *slowed(d, columns, unicode), line(9), line(9)][:2]]
 
 
 def state(d: Dashboard, unicode: bool) -> list[Span]:
@@ -87,6 +88,14 @@ def why(d: Dashboard, unicode: bool) -> str:
         start = f"start `zteleop actuator --robot {robot}`"
         return f"no actuator heard on robot {robot}; {start}, or, if it moves, cut its power"
     return printable(d.status.why, unicode)
+
+
+def slowed(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
+    """Return why the robot may not go as fast as it can, in a line, while that is so."""
+    if d.status is None or not d.status.slowed:
+        return []
+    words = f"at most {d.status.max_speed:.2f} m/s: {printable(d.status.slowed, unicode)}"
+    return [line(7, cut(words, columns), "yellow")]
 
 
 def values(d: Dashboard) -> str:

@@ -21,7 +21,7 @@ def fill(kind: type[M], values: object) -> M:
     filled = _fill(kind, {} if values is None else values, kind.__name__)
     try:
         return msgspec.convert(filled, kind)
-    except msgspec.ValidationError as error:
+    except (msgspec.ValidationError, UnicodeEncodeError) as error:  # the latter of half a surrogate pair
         raise MessageError(f"not a {kind.__name__}: {error}") from None
 
 

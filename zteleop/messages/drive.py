@@ -100,3 +100,9 @@ class DriveStatus(Message):
     """The id of the stop in force, which a release must name; 0 when there is none."""
     refused: int
     clamped: int
+    max_speed: float
+    """m/s that bound it now."""
+    latency: float
+    """s; the 99th percentile of how old the driver's commands are on arrival; 0 when nobody drives."""
+    slowed: str
+    """Why max_speed is less than the vehicle's own; empty when it is not."""

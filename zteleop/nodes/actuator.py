@@ -21,6 +21,7 @@ from zteleop.messages import (
     Vehicle,
     Why,
 )
+from zteleop.nodes.health import LOOK_EVERY, Health
 from zteleop.nodes.journal import Journal
 from zteleop.nodes.link import ActuatorEnd, Report
 from zteleop.nodes.output import Output
@@ -47,9 +48,11 @@ class Actuator:
         link: ActuatorEnd,
         stop_file: StopFile,
         journal: Journal,
+        health: Health | None = None,
     ) -> None:
         self._node, self._settings, self._driver = node, settings, driver
         self._link, self._stop_file, self._journal = link, stop_file, journal
+        self._health = health
         self._since = clock.now()
         self._drive = Drive(settings, driver.tick_us, _epoch(), self._since)
         self._output = Output(driver, self._drive, self._tell_chip)
@@ -80,6 +83,8 @@ class Actuator:
             self._node.every(TELL_EVERY)(self._tell)
             self._node.every(DESCRIBE_EVERY)(self._describe)
             self._node.every(CHECK_EVERY)(lambda: self._output.check(clock.now()))
+            if health := self._health:
+                self._node.every(LOOK_EVERY)(lambda: self._drive.cap.bear(health.look(clock.now())))
             self._node.log.info(f"obeys {self._node.robot}")
             if held := self._drive.latch.stop:
                 self._node.log.warn(describe_stop(held))
@@ -111,7 +116,11 @@ class Actuator:
         if refusal:
             self._node.log.warn(f"{received.key} is refused: {refusal}", f"{source} {refusal}")
         else:
-            self._soon.due = max(now, self._answered + AT_MOST_EVERY)
+            self._step_soon(now)
+
+    def _step_soon(self, now: float) -> None:
+        """Step at once, or as soon as the last answer is old enough."""
+        self._soon.due = max(now, self._answered + AT_MOST_EVERY)
 
     def _answer(self) -> None:
         """Step for what has arrived, 200 times a second on the average, a few in a row at once."""
@@ -179,8 +188,9 @@ class Actuator:
 
     def _withdraw(self, sender: int) -> None:
         """Let go at once for a sender whose process is gone; its deadline would come later."""
-        self._drive.withdraw(sender, clock.now())
-        self._advance()
+        now = clock.now()
+        self._drive.withdraw(sender, now)
+        self._step_soon(now)  # strangers may come and go by the thousand
 
     def _tell(self) -> None:
         self._beats.publish(Beat(self._drive.gate.epoch, clock.now()))

@@ -112,7 +112,7 @@ class JournalFile:
 
     def _open(self) -> BinaryIO:
         self._path.parent.mkdir(parents=True, exist_ok=True)
-        self._file = file = self._path.open("ab", buffering=0)
+        self._file = file = open(self._path, "ab", buffering=0, opener=_open_now)  # noqa: SIM115
         self._size = os.fstat(file.fileno()).st_size
         if self._size:  # a pulled battery or a full disk may have left half a line
             self._size += file.write(b"\n")
@@ -141,6 +141,13 @@ class JournalFile:
             self._shut()
             return False
         return True
+
+
+def _open_now(path: str, flags: int) -> int:
+    """Open a file; a pipe in its place, which nobody reads, would be waited for, for ever."""
+    file = os.open(path, flags | os.O_NONBLOCK, 0o666)
+    os.set_blocking(file, True)
+    return file
 
 
 def _harmless(value: Any) -> Any:

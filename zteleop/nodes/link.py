@@ -77,7 +77,7 @@ class ActuatorEnd(End):
         self._send(_REPORT.pack(*report))
 
     def read(self) -> Words:
-        """Return what arrived; raises DeviceError when the watchdog is gone."""
+        """Return what arrived; raises DeviceError when the watchdog is gone, or cannot be understood."""
         data = self._read()
         if data is None:
             raise DeviceError("the watchdog is gone; the actuator does not run without one")
@@ -89,7 +89,7 @@ class ActuatorEnd(End):
                 length = _STOP_HEAD.size + int.from_bytes(self._rest[1 : _STOP_HEAD.size], "little")
                 if len(self._rest) < max(length, _STOP_HEAD.size):
                     break
-                stop = msgspec.json.decode(self._rest[_STOP_HEAD.size : length], type=Stop)
+                stop = _stop(self._rest[_STOP_HEAD.size : length])
             else:
                 hears = word == HEARS
             self._rest = self._rest[length:]
@@ -119,6 +119,13 @@ class WatchdogEnd(End):
         whole = len(data) // _REPORT.size * _REPORT.size
         self._rest = data[whole:]
         return Report(*_REPORT.unpack_from(data, whole - _REPORT.size)) if whole else None
+
+
+def _stop(text: bytes) -> Stop:
+    try:
+        return msgspec.json.decode(text, type=Stop)
+    except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError):
+        raise DeviceError("the watchdog's stop cannot be read; the actuator ends, at rest") from None
 
 
 def pair() -> tuple[WatchdogEnd, socket.socket]:

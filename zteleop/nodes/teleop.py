@@ -24,6 +24,8 @@ from zteleop.nodes.stopping import Stopping, person
 PERIOD = 0.05
 NEUTRALS = 3
 LINK_LOSS = 2.0
+LATE = 0.5
+"""s between two looks at the device, after which this process knows that it was stopped itself."""
 NEWS = 5.0
 """s that the answer to a stop or a release is shown."""
 SHOW_AFTER = 0.004  # drawing at once would hold up what was just said on its way out
@@ -62,7 +64,8 @@ class Teleop:
         self._stopping = Stopping(node, person())
         self._status: DriveStatus | None = None
         self._status_at = float("-inf")
-        self._at_rest = False
+        self._at_rest = True
+        self._looked = clock.now()
         self._odom: Odometry | None = None
         self._note = ""
         self._epoch: int | None = None
@@ -96,6 +99,7 @@ class Teleop:
         if self._device.read(now):
             self._twists.act()
             self._pwms.act()
+        self._notice_pause(now)
         self._pass_on_wish(now)
         stick = self._device.stick(now)
         command = self._command(stick)
@@ -124,6 +128,14 @@ class Teleop:
             twist = command if isinstance(command, Twist) else Twist.planar()
             self._twists.repeat(TwistStamped(Header(clock.stamp(), "base_link"), twist))
 
+    def _notice_pause(self, now: float) -> None:
+        """Drop what was typed while this process stood still: it was meant for then. A stop counts."""
+        then, self._looked = self._looked, now
+        if now - then > LATE:
+            self._device.reset(now)
+            if self._device.stop_wish is False:
+                self._device.stop_wish = None
+
     def _notice_robot(self, now: float) -> None:
         """Let go when the robot is another one than when the operator acted: restarted, or long unheard."""
         beat, vehicle = self._heard.beat, self._heard.vehicle
@@ -136,14 +148,17 @@ class Teleop:
             self._refit(vehicle, now)
 
     def _notice_rest(self, now: float) -> None:
-        """Let go when the robot is kept at rest, and when that ends: the next act begins from neutral."""
+        """Let go when the robot is kept at rest, and when that ends: the next act begins from neutral.
+
+        One that has not said its state yet is taken for one at rest: it may still be starting.
+        """
         status = self._statuses.newest()
         if status:
             self._status, self._status_at = status, now
         elif now - self._status_at > LINK_LOSS:
             self._status = None
         self._stopping.heed(status, now)
-        at_rest = self._status is not None and self._status.state in HOLDS
+        at_rest = self._status is None or self._status.state in HOLDS
         if at_rest != self._at_rest:
             self._at_rest = at_rest
             self._device.reset(now)

@@ -17,6 +17,7 @@ from zteleop.nodes import service
 from zteleop.nodes.child import Child
 from zteleop.nodes.link import DEAF, HEARS
 from zteleop.nodes.overhear import Overhearing
+from zteleop.nodes.recorder import Recorder
 from zteleop.nodes.stop_file import StopFile
 
 PERIOD = 0.02
@@ -41,8 +42,10 @@ class Watchdog:
         child: Child,
         stop_file: StopFile,
         enable: Callable[[bool], object] = lambda on: None,
+        recorder: Recorder | None = None,
     ) -> None:
         self._node, self._hand, self._child, self._stop_file = node, hand, child, stop_file
+        self._recorder = recorder
         self._enable = enable
         """Lets the chip's outputs through, or cuts them, where a pin can."""
         self._is_cut = True
@@ -166,6 +169,7 @@ class Watchdog:
         self._restart_at = now + self._child.pause(now)
         self._why = f"the actuator is gone: {why}"
         self._node.log.error(f"{self._why}; the chip is kept at rest and another starts")
+        self._tell_status()
 
     @property
     def _never_stepped(self) -> bool:
@@ -209,8 +213,15 @@ class Watchdog:
             self._rest()
         self._cut(True)
         self._hand.close()
+        if self._recorder:
+            self._recorder.end()
 
     def _tell(self) -> None:
+        self._tell_status()
+        if self._recorder and self._child.ready:
+            self._recorder.tend(clock.now())
+
+    def _tell_status(self) -> None:
         now = clock.now()
         resting = self._restart_at is not None
         self._statuses.publish(

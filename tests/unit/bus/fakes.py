@@ -73,9 +73,14 @@ class Liveliness:
     def __init__(self, keys: Iterable[str] = ()) -> None:
         self.keys = list(keys)
 
+        self.ring = Ring()
+
     def declare_token(self, key: str) -> str:
         self.keys.append(key)
         return key
+
+    def declare_subscriber(self, key: str, handler: object, history: bool = False) -> "Ring":
+        return self.ring
 
     def get(self, selector: str, timeout: float) -> list[Any]:
         wanted = zenoh.KeyExpr(selector)

@@ -242,3 +242,9 @@ def test_an_error_ends_the_run_and_the_rest_waits_for_the_next(loop: Loop) -> No
         loop.run_once()
     loop.run_once()
     assert done == ["next"]
+
+
+def test_a_failure_elsewhere_comes_out_of_the_run(loop: Loop) -> None:
+    loop.fail(ZeroDivisionError("an inbox is broken"))
+    with pytest.raises(ZeroDivisionError, match="an inbox is broken"):
+        loop.run()

@@ -60,6 +60,7 @@ def test_endpoints_are_told_once_and_in_order() -> None:
         "robot/archangel/live/sub/nose/host-1/any",
         "robot/archangel/live/pub/nose/host-1/any/\x1b[2J",
         "robot/\x1b[2J/live/pub/nose/host-1/any/odom",
+        "robot/*/live/pub/nose/host-1/any/odom",
     ],
 )
 def test_a_strangers_token_is_left_out(key: str) -> None:
@@ -71,6 +72,11 @@ def test_robots_are_those_with_an_actuator() -> None:
     assert presence.robots(Session(keys)) == ["abe", "zoe"]
 
 
+def test_what_cannot_be_a_robots_name_is_none() -> None:
+    names = ("*", "**", "\x1b[2J", "ABE", "é", "x" * 64)
+    assert presence.robots(Session(f"robot/{name}/live/node/actuator/pi-7" for name in names)) == []
+
+
 def test_holders_are_the_processes_of_one_node_of_one_robot() -> None:
     keys = [
         "robot/abe/live/node/actuator/pi-7",
@@ -80,3 +86,9 @@ def test_holders_are_the_processes_of_one_node_of_one_robot() -> None:
     ]
     assert presence.holders(Session(keys), "abe", "actuator") == ["laptop-3", "pi-7"]
     assert presence.holders(Session(), "abe", "actuator") == []
+
+
+@pytest.mark.parametrize("name", ["*", "**", "pi\x1b[2J"])
+def test_a_stranger_is_no_holder_of_every_robots_nodes(name: str) -> None:
+    keys = [f"robot/abe/live/node/actuator/{name}", "robot/*/live/node/actuator/pi-7"]
+    assert presence.holders(Session(keys), "abe", "actuator") == []

@@ -31,6 +31,7 @@ def opened(clock: Clock, monkeypatch: pytest.MonkeyPatch) -> Callable[..., list[
             return result
 
         monkeypatch.setattr(zenoh, "open", open_)
+        monkeypatch.setattr(session.linger, "forbid", lambda session: None)
         monkeypatch.setattr(session.time, "monotonic", clock.now)
         monkeypatch.setattr(session.time, "sleep", clock.pass_by)
         return configs
@@ -159,3 +160,47 @@ def test_patience_is_a_time_that_can_pass() -> None:
     """NaN never passes: a client would try for ever."""
     with pytest.raises(msgspec.ValidationError):
         msgspec.convert({"patience": float("nan")}, BusSettings)
+
+
+def test_who_passes_messages_on_waits_for_no_client_that_stands_still() -> None:
+    key = "transport/link/tx/queue/congestion_control/block/wait_before_close"
+    for settings, door in ((BusSettings(), True), (BusSettings(mode="router"), False)):
+        assert value(session._configure(settings, False, door), key) <= 100_000
+
+
+@pytest.mark.parametrize(
+    "threads",
+    [
+        "garbage",
+        "(",
+        "()",
+        "(rx:(worker_threads:0))",
+        "(rx:(worker_threads:1),rx:(worker_threads:1))",
+        "(rx:(worker_threads:1)",
+        "(rx:(worker_threads:1),,tx:(handover:rx))",
+    ],
+)
+def test_threads_that_zenoh_would_die_of_are_refused_in_words(
+    monkeypatch: pytest.MonkeyPatch, opened: Callable[..., Any], threads: str
+) -> None:
+    tried = opened("session")
+    monkeypatch.setenv("ZENOH_RUNTIME", threads)
+    with pytest.raises(ConfigError, match=r"^ZENOH_RUNTIME is such as .*; correct it, or unset it$"):
+        open_session(BusSettings())
+    assert not tried
+
+
+@pytest.mark.parametrize("threads", ["", "(rx:(worker_threads:2))", session._APART, session._ONE_THREAD])
+def test_threads_that_somebody_chose_are_taken(
+    monkeypatch: pytest.MonkeyPatch, opened: Callable[..., Any], threads: str
+) -> None:
+    opened("session")
+    monkeypatch.setenv("ZENOH_RUNTIME", threads)
+    assert open_session(BusSettings()) == "session"
+
+
+def test_an_endpoint_that_zenoh_refuses_is_one_sentence() -> None:
+    with pytest.raises(ConfigError) as found:
+        configure(connect=["tcp/pi.local:7447?"])
+    assert "tcp/pi.local:7447?" in str(found.value)
+    assert "cargo" not in str(found.value)

@@ -116,7 +116,7 @@ class Lock:
 class Thread:
     """A thread whose work is done when the test says so."""
 
-    def __init__(self, target: Callable[[], None], daemon: bool) -> None:
+    def __init__(self, target: Callable[[], None], name: str, daemon: bool) -> None:
         assert daemon
         self.run, self.started = target, False
 
@@ -138,6 +138,10 @@ class Obedient:
 
     def __init__(self) -> None:
         self.next: Callable[[], object] | None = None
+        self.failure: BaseException | None = None
+
+    def fail(self, error: BaseException) -> None:
+        self.failure = error
 
     def call_soon(self, action: Callable[[], object]) -> None:
         self.next = action
@@ -157,7 +161,7 @@ class TestPump:
         pump = Pump(inbox.subscription, lambda received: heard.append(received.message.data), loop)
         assert pump._thread.started
         with pytest.raises(AssertionError, match="waits for ever"):
-            pump._thread.run()
+            pump._wait()
         assert heard == []
         inbox.ring.samples.append(sample(String("b")))
         loop.run_once()
@@ -222,3 +226,9 @@ class TestPump:
             pump._thread.run()
         finally:
             pump._loop.close()
+
+    def test_an_error_of_its_own_ends_the_loop_for_nobody_else_would_empty_the_inbox(self) -> None:
+        inbox, loop = Inbox(), Obedient()
+        inbox.ring.recv = lambda: 1 / 0
+        Pump(inbox.subscription, pytest.fail, loop)._thread.run()
+        assert isinstance(loop.failure, ZeroDivisionError)

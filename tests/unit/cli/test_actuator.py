@@ -48,6 +48,7 @@ def test_an_offset_shifts_the_throttles_neutral_by_ticks() -> None:
         ({"pulse_duty": float("nan")}, "Expected `float` > 0.0"),
         ({"neutral_offset": 200}, "neutral_us must lie between min_us and max_us"),
         ({"neutral_offset": -(10**6)}, "Expected `float` >= 500.0"),
+        ({"neutral_offset": 10**400}, "int too large"),
     ],
 )
 def test_what_cannot_be_obeyed_is_refused(typed: dict[str, Any], words: str) -> None:

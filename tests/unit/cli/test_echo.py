@@ -56,3 +56,10 @@ def test_it_gives_up_after_so_long_a_silence(clock: Clock, monkeypatch: pytest.M
 def test_without_a_timeout_it_hears_until_the_end() -> None:
     samples = [sample(String("a")), sample(String("b"))]
     assert list(echo._samples(iter(samples), None, "key")) == samples
+
+
+def test_what_is_nested_too_deeply_for_yaml_is_said_and_no_end(capsys: pytest.CaptureFixture[str]) -> None:
+    deep = Sample(b"[" * 900 + b"]" * 900, encoding="application/json", key="robot/abe/odom")
+    assert not echo._print(deep, as_json=False)
+    assert "1800 bytes of 'application/json', nested too deeply to show" in capsys.readouterr().err
+    assert echo._print(deep, as_json=True)

@@ -12,7 +12,7 @@ from unit.nodes.fakes import Node
 from zteleop.bus.session import BusSettings
 from zteleop.cli import obey
 from zteleop.config import Config
-from zteleop.errors import DeviceError
+from zteleop.errors import ConfigError, DeviceError
 from zteleop.nodes import link
 
 
@@ -27,8 +27,8 @@ def made(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> dict[str, Any]:
         yield made["node"]
         made["left"] = True
 
-    def actuator(node: Any, drive: Any, driver: Any, end: Any, stop_file: Any, journal: Any) -> Any:
-        made.update(drive=drive, end=end, stop=stop_file.path, journal=journal)
+    def actuator(node: Any, drive: Any, driver: Any, end: Any, stop_file: Any, journal: Any, health: Any) -> Any:
+        made.update(drive=drive, end=end, stop=stop_file.path, journal=journal, health=health)
         return SimpleNamespace(run=lambda: made.update(ran=True))
 
     def open_driver(name: str, settings: Any, *, exclusive: bool) -> str:
@@ -41,6 +41,7 @@ def made(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> dict[str, Any]:
     monkeypatch.setattr(obey, "Node", join)
     monkeypatch.setattr(obey, "Actuator", actuator)
     monkeypatch.setattr(obey, "Journal", lambda folder, detail, warn: (folder, detail))
+    monkeypatch.setattr(obey, "Health", lambda root, log: str(root))
     monkeypatch.setattr(obey, "open_driver", open_driver)
     return made
 
@@ -70,7 +71,7 @@ def test_it_obeys_with_the_settings_it_is_given_and_its_parents_lock(
         False,
     )
     folder = tmp_path / "zteleop" / "robots" / "archangel"
-    assert (made["stop"], made["journal"]) == (folder / "stop", (folder, "all"))
+    assert (made["stop"], made["journal"], made["health"]) == (folder / "stop", (folder, "all"), "/sys")
     assert made["ran"]
     assert made["left"]
 
@@ -93,3 +94,18 @@ def test_a_chip_that_is_missing_leaves_the_bus(made: dict[str, Any], monkeypatch
     with pytest.raises(DeviceError, match="nobody answers"):
         obey.run(7)
     assert "ran" not in made
+
+
+@pytest.mark.parametrize(
+    "orders",
+    [b"", b"{", b"null", b'{"robot":"../x"}', b'{"robot":"\xff"}', b'{"drivers":' * 5000, b'{"x":1}'],
+)
+def test_orders_that_are_none_are_refused_in_words(orders: bytes) -> None:
+    with pytest.raises(ConfigError, match=r"^expected a watchdog's settings on standard input: "):
+        obey.orders(orders)
+
+
+@pytest.mark.parametrize("number", [-1, 10**20, 987654])
+def test_a_link_that_is_none_is_refused_in_words(number: int) -> None:
+    with pytest.raises(DeviceError, match=f"file {number} is no watchdog's; zteleop actuator starts both"):
+        obey._adopt(number)

@@ -118,3 +118,11 @@ def test_a_count_that_never_comes_is_refused(times: str, capsys: pytest.CaptureF
     pub.add_arguments(parser)
     with pytest.raises(SystemExit):
         parser.parse_args(["archangel/cmd_vel", "Twist", "-t", times])
+
+
+@pytest.mark.parametrize(
+    "text", ["!!timestamp x", "!!int ''", "!!bool x", "[" * 2000, "2001-99-99", "{[1]: 2}"]
+)
+def test_what_is_no_yaml_is_said_however_it_fails(text: str) -> None:
+    with pytest.raises(MessageError, match="expected YAML such as"):
+        pub._yaml(text)

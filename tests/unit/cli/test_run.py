@@ -104,3 +104,16 @@ def test_a_verb_that_is_there_runs(capsys: pytest.CaptureFixture[str], tmp_path:
         file.write("speed = 1\n")
     assert run.run_verb("check", "check a config file", [path]) == 1
     assert capsys.readouterr().err == f"zteleop check: {path}: Object contains unknown field `speed`\n"
+
+
+def test_what_strangers_said_is_escaped_in_an_error(verb: Verb, capsys: pytest.CaptureFixture[str]) -> None:
+    assert verb(BusError("stopped by \x1b[2J\u202e")) == 1
+    assert capsys.readouterr().err == "zteleop fly: stopped by \\u001b[2J\\u202e\n"
+
+
+def test_what_a_terminal_cannot_show_ends_nothing(verb: Verb, capsys: pytest.CaptureFixture[str]) -> None:
+    out = io.TextIOWrapper(io.BytesIO(), "ascii")
+    with redirect_stdout(out):
+        assert verb(lambda: print("é\udcff")) == 0  # noqa: T201
+    assert out.buffer.getvalue() == b"\\xe9\\udcff\n"  # type: ignore[attr-defined]
+    assert capsys.readouterr().err == ""

@@ -99,3 +99,8 @@ def test_the_verb_prints_it_escaped(monkeypatch: pytest.MonkeyPatch, capsys: Any
     out = capsys.readouterr().out
     assert "\x1b" not in out
     assert out.count("\n") == 3
+
+
+def test_a_stranger_adds_no_line_of_his_own() -> None:
+    evil = Why([Layer("operator", "nobody\n  watchdog  watching")])
+    assert len(explain(node(drive_status=STATUS, why=evil)).splitlines()) == 3

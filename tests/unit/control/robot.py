@@ -25,9 +25,15 @@ class Robot:
         return step
 
     def say(
-        self, command: Twist | Pwm, sender: str = "a", source: str = "keyboard", act: bool = True
+        self,
+        command: Twist | Pwm,
+        sender: str = "a",
+        source: str = "keyboard",
+        act: bool = True,
+        age: float = 0.0,
     ) -> Refusal | None:
-        prover, beat = self.provers[sender], Beat(self.epoch, self.now)
+        """Say a command that was `age` s on its way, from the robot's beat back to the robot."""
+        prover, beat = self.provers[sender], Beat(self.epoch, self.now - age)
         if act:
             prover.act(beat)
         moving = command not in (REST, Pwm(375, 370))
@@ -40,10 +46,11 @@ class Robot:
         act: bool = True,
         sender: str = "a",
         source: str = "keyboard",
+        age: float = 0.0,
     ) -> Step:
         """Say a command about 17 times a second, as somebody who holds a key."""
         for _ in range(round(seconds * 20)):
-            self.say(command, sender, source, act)
+            self.say(command, sender, source, act, age)
             step = self.wait(0.06)
         return step
 

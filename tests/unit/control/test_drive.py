@@ -5,7 +5,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from unit.control.robot import FORWARD, NEUTRAL, REST, TICK_US, Robot, moves
 
-from zteleop.control.drive import DriveSettings
+from zteleop.control.cap import Strain
+from zteleop.control.drive import DriveSettings, Step
 from zteleop.control.gate import Refusal
 from zteleop.control.mixer import Differential
 from zteleop.control.mux import Source
@@ -311,3 +312,119 @@ def test_who_let_go_while_another_drove_may_drive_at_once_when_it_is_free() -> N
     robot.say(Pwm(375, 370), "b")
     robot.say(Twist.planar(), "a")
     assert robot.say(Pwm(390, 400), "b") is None
+
+
+FULL = Twist.planar(3.0, 3.0)
+"""As fast as it can, on a curve of 1 m."""
+
+
+def speed_of(robot: Robot, step: Step) -> float:
+    return robot.drive.settings.mixer.unmix(step.wheels).linear.x
+
+
+@pytest.mark.parametrize(("age", "speed"), [(0.05, 3.0), (0.14, 3.0), (0.2, 2.7), (0.29, 3 * 0.45 / 0.59)])
+@pytest.mark.parametrize("command", [FULL, Pwm(400, 500)])
+def test_the_later_the_commands_the_slower_at_the_same_steering(
+    command: Twist | Pwm, age: float, speed: float
+) -> None:
+    robot, good = Robot(), Robot()
+    for each in (robot, good):
+        each.wait(1.0)
+    step = robot.hold(command, 3.0, age=age)
+    assert step.bound.speed == pytest.approx(speed, abs=0.01)
+    assert speed_of(robot, step) == pytest.approx(speed, abs=0.01)
+    assert step.wheels["steering"] == pytest.approx(good.hold(command, 3.0).wheels["steering"])
+
+
+@pytest.mark.parametrize("command", [FULL, Pwm(400, 500)])
+def test_a_cap_that_falls_or_rises_while_driving_moves_the_speed_within_the_acceleration(
+    command: Twist | Pwm,
+) -> None:
+    robot = Robot()
+    robot.wait(1.0)
+    speed = speed_of(robot, robot.hold(command, 3.0))
+    seen, age = [speed], 0.0
+    for worst in (0.29, 0.05):
+        for _ in range(150):
+            age = min(worst, age + 0.02)  # a beat that goes back would be refused
+            robot.say(command, age=age)
+            robot.now += 0.05
+            after = speed_of(robot, robot.drive.step(robot.now))
+            assert abs(after - speed) <= 3.0 * 0.05 + 1e-9
+            speed = after
+        seen.append(speed)
+    assert seen == [pytest.approx(3.0), pytest.approx(2.29, abs=0.01), pytest.approx(3.0)]
+
+
+def test_no_cap_makes_a_slow_command_faster_or_slower() -> None:
+    robot = Robot()
+    robot.wait(1.0)
+    assert speed_of(robot, robot.hold(FORWARD, 2.0, age=0.29)) == pytest.approx(0.5)
+
+
+def test_a_command_that_is_too_late_counts_only_against_its_own_sender() -> None:
+    robot = Robot()
+    robot.wait(1.0)
+    robot.hold(FULL, 2.0, sender="a")
+    assert robot.say(FULL, "b", age=0.4) == Refusal.STALE
+    assert robot.hold(FULL, 0.3).bound.latency == 0.0
+    robot.wait(0.5)
+    assert robot.say(FULL, "a", age=0.4) == Refusal.STALE
+    step = robot.hold(FULL, 0.3)
+    assert step.bound.latency == 0.3
+    assert step.bound.by == "link"
+
+
+def test_a_beat_of_the_future_is_refused_and_counts_for_nothing() -> None:
+    robot = Robot()
+    robot.hold(FULL, 1.0)
+    assert robot.say(FULL, age=-5.0) == Refusal.STALE
+    assert robot.hold(FULL, 0.3).bound == (3.0, "vehicle", 0.0)
+
+
+def test_a_waiting_sender_with_a_bad_link_slows_nobody_down() -> None:
+    robot = Robot()
+    robot.wait(1.0)
+    for _ in range(40):
+        robot.say(FULL, "a", "keyboard")
+        assert robot.say(FULL, "b", "keyboard", age=0.29) == Refusal.HELD
+        robot.say(FULL, "c", "program", age=0.29)
+        step = robot.wait(0.06)
+    assert step.bound == (3.0, "vehicle", 0.0)
+
+
+def test_a_sender_that_cannot_prove_its_age_counts_as_late_as_one_may_be() -> None:
+    robot = Robot(DriveSettings(sources={"nav": Source(10, trust="arrival")}))
+    for command in (REST, FULL):
+        robot.drive.receive("nav", command, None, robot.now)
+        robot.wait(0.04)
+    assert robot.step().bound == (pytest.approx(2.25), "link", 0.3)
+
+
+def test_a_strain_slows_down_whoever_drives_and_turns_as_before() -> None:
+    robot = Robot()
+    free = robot.hold(FULL, 2.0)
+    robot.drive.cap.bear(Strain(0.5, "undervoltage"))
+    step = robot.hold(FULL, 2.0)
+    assert speed_of(robot, step) == pytest.approx(1.5)
+    assert step.wheels["steering"] == pytest.approx(free.wheels["steering"])
+
+
+def test_standing_wheels_turn_under_any_cap() -> None:
+    robot = Robot()
+    robot.wait(1.0)
+    robot.drive.cap.bear(Strain(0.25, "heat"))
+    step = robot.hold(Pwm(460, 370), 1.0, age=0.29)
+    assert step.wheels == {"throttle": pytest.approx(0.0), "steering": pytest.approx(1.0, abs=0.01)}
+
+
+def test_a_stop_is_no_softer_for_a_cap() -> None:
+    robot = Robot()
+    robot.wait(1.0)
+    robot.hold(FULL, 2.0, age=0.29)
+    robot.stop(7)
+    assert not moves(robot.step())
+
+
+def test_nobody_who_drives_is_bounded_by_the_vehicle_alone() -> None:
+    assert Robot().step().bound == (3.0, "vehicle", 0.0)

@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from unit.control.robot import FORWARD, REST, Robot
 
+from zteleop.control.cap import CapSettings, Strain
 from zteleop.control.drive import DriveSettings
 from zteleop.control.explain import layers
 from zteleop.control.limiter import Limits
@@ -28,6 +29,7 @@ def test_at_rest_every_layer_says_so_from_the_operator_to_the_wheels() -> None:
         ("mux", "no claim counts"),
         ("gate", "refuses nobody"),
         ("rest", "idle: nobody drives"),
+        ("cap", "3 m/s: nobody drives"),
         ("limiter", "nothing to limit"),
         ("wheels", "throttle 1510 us = 370 ticks, steering 1530 us = 375 ticks"),
     ]
@@ -66,6 +68,50 @@ def test_a_source_that_may_not_drive_so_fast_names_its_cap() -> None:
     robot = Robot(DriveSettings(sources={"nav": Source(10, max_speed=0.4)}))
     robot.hold(Twist.planar(2.0), 0.5, source="nav")
     assert says(robot)["limiter"] == "makes it +0.40 m/s +0.00 rad/s: nav may drive 0.4 m/s here"
+    assert says(robot)["cap"] == "0.4 of 3 m/s: nav may drive no faster here"
+
+
+def test_a_good_link_is_told_with_its_age() -> None:
+    robot = Robot()
+    robot.wait(1.0)
+    robot.hold(FORWARD, 1.0, age=0.062)
+    assert says(robot)["cap"] == "3 m/s: commands of keyboard are up to 62 ms old"
+
+
+def test_a_late_link_is_told_with_the_speed_it_leaves() -> None:
+    robot = Robot()
+    robot.wait(1.0)
+    robot.hold(Twist.planar(3.0), 2.0, age=0.24)
+    said = says(robot)
+    words = "commands of keyboard are up to 240 ms old, and it must stop as soon as on a good link"
+    assert said["cap"] == f"2.5 of 3 m/s: {words}"
+    assert said["limiter"] == "makes it +2.50 m/s +0.00 rad/s: the cap is 2.5 m/s"
+
+
+def test_a_stopping_distance_is_named() -> None:
+    robot = Robot(DriveSettings(cap=CapSettings(stopping_distance=2.0)))
+    robot.wait(1.0)
+    robot.hold(FORWARD, 1.0, age=0.24)
+    words = "commands of keyboard are up to 240 ms old, and it must stop within 2 m"
+    assert says(robot)["cap"] == f"1.53 of 3 m/s: {words}"
+
+
+def test_a_strain_is_told_even_at_rest() -> None:
+    robot = Robot()
+    robot.drive.cap.bear(Strain(0.5, "the Pi is hot"))
+    assert says(robot)["cap"] == "1.5 of 3 m/s: the Pi is hot"
+    robot.hold(Twist.planar(3.0), 2.0)
+    assert says(robot)["cap"] == "1.5 of 3 m/s: the Pi is hot"
+    assert says(robot)["limiter"].endswith(": the cap is 1.5 m/s")
+
+
+def test_a_sender_without_proof_is_told_as_one() -> None:
+    robot = Robot(DriveSettings(sources={"nav": Source(10, trust="arrival")}))
+    for command in (REST, FORWARD):
+        robot.drive.receive("nav", command, None, robot.now)
+        robot.wait(0.04)
+    words = "commands of nav cannot prove their age, and it must stop as soon as on a good link"
+    assert says(robot)["cap"] == f"2.25 of 3 m/s: {words}"
 
 
 def test_a_throttle_obeyed_for_a_share_of_the_time_says_so() -> None:

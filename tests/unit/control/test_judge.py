@@ -3,6 +3,7 @@
 import pytest
 from unit.control.robot import FORWARD, NEUTRAL, REST, TICK_US, Robot, moves
 
+from zteleop.control.cap import Strain
 from zteleop.control.drive import Drive, DriveSettings, Step
 from zteleop.control.gate import SENDERS, Refusal
 from zteleop.control.judge import GRACE, LOOKS, Judge
@@ -27,8 +28,8 @@ class Watched(Robot):
         self.looked = self.now
         self.why: str | None = None
 
-    def say(self, command: Twist | Pwm, sender="a", source="keyboard", act=True) -> Refusal | None:
-        prover, beat = self.provers[sender], Beat(self.epoch, self.now)
+    def say(self, command: Twist | Pwm, sender="a", source="keyboard", act=True, age=0.0) -> Refusal | None:
+        prover, beat = self.provers[sender], Beat(self.epoch, self.now - age)
         if act:
             prover.act(beat)
         return self.tell(source, command, prover.prove(beat, command != REST, self.now))
@@ -348,6 +349,17 @@ def test_half_a_tick_is_rest_and_an_output_that_is_off_too(robot: Watched) -> No
     half = TICK_US / 2
     assert robot.judge.at_rest({0: 1509.6 + half, 1: None})
     assert not robot.judge.at_rest({0: 1509.6, 1: 1530.0 - half - 0.01})
+
+
+def test_a_speed_cap_gives_the_judge_nothing_to_blame(robot: Watched) -> None:
+    robot.wait(1.0)
+    robot.drive.cap.bear(Strain(0.5, "undervoltage"))
+    for age in (0.29, 0.0):
+        step = robot.hold(Twist.planar(3.0), 3.0, age=age)
+        assert step.bound.by == "strain"
+        assert moves(step)
+        assert robot.why is None
+        assert robot.judge.allowed(robot.now)
 
 
 def test_a_judge_that_looks_late_does_not_blame_who_began_after_the_release() -> None:

@@ -60,6 +60,14 @@ def test_a_source_may_be_slower_than_the_vehicle() -> None:
     assert limiter.limit(Twist.planar(2.0), 10.0, max_speed=0.4).linear.x == pytest.approx(0.4)
 
 
+def test_a_bound_next_to_nothing_is_a_bound_as_well() -> None:
+    limiter = TwistLimiter(Limits(), CAR)
+    limiter.limit(None, 0.0)
+    assert limiter.limit(Twist.planar(2.0, 1.0), 10.0, max_speed=1e-9).linear.x <= 1e-9
+    wheels = WheelLimiter(Limits(), CAR, DONKEYCAR).cap({"throttle": 1.0, "steering": 1.0}, 1e-9)
+    assert wheels == {"throttle": pytest.approx(1e-9 / 3), "steering": 1.0}
+
+
 def test_a_standing_car_turns_its_wheels() -> None:
     limiter = TwistLimiter(Limits(), CAR)
     limiter.limit(None, 0.0)

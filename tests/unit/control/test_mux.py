@@ -5,7 +5,7 @@ SOURCES = {"web": Source(priority=100), "keyboard": Source(priority=90), "progra
 
 
 def claim(source: str, at: float, sender: int = 1, acted: float | None = None) -> Claim:
-    return Claim(source, sender, Twist.planar(0.5), at if acted is None else acted, at, 1)
+    return Claim(source, sender, Twist.planar(0.5), at if acted is None else acted, at, 1, at)
 
 
 def mux() -> Mux:
@@ -57,3 +57,10 @@ def test_letting_go_frees_only_ones_own() -> None:
     it.offer(claim("keyboard", 1.0, sender=1))
     it.release(2)
     assert it.select(1.0).sender == 1
+
+
+def test_a_sender_that_no_longer_hears_the_robot_falls_silent_as_well() -> None:
+    it = mux()
+    it.offer(claim("keyboard", 1.25)._replace(beat=1.0))
+    assert it.select(1.39)
+    assert it.select(1.41) is None

@@ -34,6 +34,18 @@ def test_ticks_are_told_as_the_twist_they_ask_for() -> None:
     assert said.wanted.linear.x == pytest.approx(3.0, abs=0.05)
 
 
+def test_status_tells_how_fast_it_may_be_and_why_no_faster() -> None:
+    robot = Robot()
+    robot.wait(1.0)
+    said = status(robot.drive, robot.step(), written=3.0)
+    assert (said.max_speed, said.latency, said.slowed) == (3.0, 0.0, "")
+    said = status(robot.drive, robot.hold(FORWARD, 1.0, age=0.06), written=3.0)
+    assert (said.max_speed, said.latency, said.slowed) == (3.0, pytest.approx(0.06), "")
+    said = status(robot.drive, robot.hold(FORWARD, 6.0, age=0.24), written=3.0)
+    assert (said.max_speed, said.latency) == (pytest.approx(2.5), pytest.approx(0.24))
+    assert said.slowed == "commands of keyboard are up to 240 ms old"
+
+
 def test_status_names_the_stop_in_force_so_that_it_can_be_released() -> None:
     robot = Robot()
     robot.hold(FORWARD, 0.2)

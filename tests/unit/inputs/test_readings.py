@@ -15,6 +15,7 @@ def status(**changes) -> DriveStatus:
         **{"state": "driving", "why": "obeying keyboard", "source": "keyboard", "operator": "3fa2b1c0"},
         **{"wanted": Twist.planar(0.3, 0.5), "applied": Twist.planar(0.25, 0.4)},
         **{"pulses": [], "seq": 1, "written": 0.0, "stop": 0, "refused": 0, "clamped": 0},
+        **{"max_speed": 3.0, "latency": 0.06, "slowed": ""},
     }
     return DriveStatus(**fields | changes)
 
@@ -71,3 +72,25 @@ def test_the_wheels_point_where_the_pulse_says(car, fraction, angle):
     board = Dashboard("c", "step", Speeds(), car, status=status(pulses=pulses))
     assert steering_angle(board) == pytest.approx(angle)
     assert "throttle 370, steering 375" in " ".join(texts(readings(board, 80, True)))
+
+
+LATE = {"max_speed": 2.25, "slowed": "commands of keyboard are up to 300 ms old"}
+
+
+@pytest.mark.parametrize(("columns", "words"), [(80, 80), (62, 62), (40, 40), (20, 20)])
+def test_a_cap_that_bites_is_one_line_and_one_that_does_not_is_none(car, columns, words):
+    capped = "at most 2.25 m/s: commands of keyboard are up to 300 ms old"[:words]
+    for changes, lines in ((LATE, [capped]), ({}, [])):
+        board = Dashboard("c", "step", Speeds(), car, status=status(**changes))
+        assert [text for text in texts(readings(board, columns, True)) if "at most" in text] == lines
+
+
+def test_on_a_wide_screen_a_cap_moves_nothing_and_yields_to_a_long_reason(car):
+    board = Dashboard("c", "step", Speeds(), car, status=status(**LATE))
+    shown = texts(readings(board, 80, True))
+    assert shown[1:3] == ["obeying keyboard", "at most 2.25 m/s: commands of keyboard are up to 300 ms old"]
+    assert shown[3].startswith("Currently outputting")
+    why = "a long reason to stand still " * 4
+    shown = texts(readings(board._replace(status=status(why=why, **LATE)), 80, True))
+    assert "at most" not in " ".join(shown)
+    assert shown[3].startswith("Currently outputting")

@@ -18,7 +18,7 @@ def shown(board: Dashboard, columns: int = 80, rows: int = 24) -> list[str]:
 def board(car: Vehicle, drive: str = "step", why: str = "obeying keyboard", note: str = "") -> Dashboard:
     pulses = [Pulse("steering", 1, 0.5, 1500.0, 330)]
     rest = Twist.zero()
-    status = DriveStatus("driving", why, "keyboard", "3fa2", rest, rest, pulses, 1, 0.0, 0, 0, 0)
+    status = DriveStatus("driving", why, "keyboard", "3fa2", rest, rest, pulses, 1, 0.0, 0, 0, 0, 3.0, 0.06, "")
     return Dashboard(
         "archangel", drive, Speeds(), car, pwm=Pwm(375, 370), status=status, odom=Odometry.zero(), note=note
     )
@@ -115,6 +115,23 @@ def test_without_unicode_all_is_ascii(car):
     assert "".join(render(board(car, why="Zürich"), 100, 30, unicode=False, color=True)).isascii()
 
 
+@pytest.mark.parametrize(("columns", "rows"), [(80, 24), (80, 6), (62, 5), (40, 12), (30, 7), (20, 8)])
+@pytest.mark.parametrize("drive", ["step", "hold"])
+def test_a_cap_takes_the_stop_key_from_no_window(car, columns, rows, drive):
+    page = board(car, drive)
+    before = " ".join(shown(page, columns, rows))
+    page.status.max_speed, page.status.slowed = 1.5, "the Pi's supply is too low (undervoltage)"
+    after = " ".join(shown(page, columns, rows))
+    assert ("backspace STOP" in after) == ("backspace STOP" in before)
+    assert "backspace STOP" in after or rows < 7
+
+
+def test_a_cap_is_shown_in_a_common_window(car):
+    page = board(car)
+    page.status.max_speed, page.status.slowed = 1.5, "the Pi's supply is too low (undervoltage)"
+    assert "at most 1.50 m/s: the Pi's supply is too low (undervoltage)" in shown(page)
+
+
 WORDS = st.text(max_size=60)
 ANY = st.floats()
 
@@ -135,7 +152,7 @@ def boards(draw) -> Dashboard:
     pulses = [Pulse(draw(st.one_of(st.just("steering"), WORDS)), 0, draw(ANY), 1.0, draw(ticks))]
     twist = Twist.planar(draw(ANY), draw(ANY))
     state = draw(st.sampled_from(["idle", "stopped"]))
-    status = DriveStatus(state, draw(WORDS), draw(WORDS), draw(WORDS), twist, twist, pulses, 0, 0.0, 0, 0, 0)
+    status = DriveStatus(state, draw(WORDS), draw(WORDS), draw(WORDS), twist, twist, pulses, 0, 0.0, 0, 0, 0, draw(ANY), 0.1, draw(WORDS))
     odom = Odometry.zero()
     odom.pose.pose.position.x, odom.pose.pose.orientation.z = draw(ANY), draw(ANY)
     return Dashboard(

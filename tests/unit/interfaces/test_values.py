@@ -92,3 +92,8 @@ def test_a_list_within_itself_is_refused() -> None:
     for values in ({"data": endless}, {"layout": {"dim": endless}}):
         with pytest.raises(MessageError):
             fill(Int16MultiArray, values)
+
+
+def test_half_a_character_is_an_error_in_words() -> None:
+    with pytest.raises(MessageError, match=r"not a Bool: .*surrogates not allowed"):
+        fill(Bool, {"data": "\ud800"})

@@ -1,3 +1,5 @@
+from pathlib import Path
+
 import pytest
 from unit.bus.fakes import Clock
 from unit.nodes.fakes import Chip, Node, Shelf
@@ -18,6 +20,7 @@ from zteleop.nodes.actuator import (
     WATCHDOG_SILENCE,
     Actuator,
 )
+from zteleop.nodes.health import LOOK_EVERY, Health
 from zteleop.nodes.link import Report, Words
 from zteleop.nodes.output import REPAIR_EVERY
 
@@ -80,11 +83,12 @@ class Robot:
         chip: Chip | None = None,
         shelf: Shelf | None = None,
         hears: bool = True,
+        health: Health | None = None,
     ) -> None:
         self.node, self.clock = node, clock
         self.chip, self.link, self.shelf, self.journal = chip or Chip(), Link(), shelf or Shelf(), Journal()
         self.actuator = Actuator(
-            node, settings or DriveSettings(), self.chip, self.link, self.shelf, self.journal
+            node, settings or DriveSettings(), self.chip, self.link, self.shelf, self.journal, health
         )
         self.actuator.run()
         self.prover = Prover(7)
@@ -309,6 +313,7 @@ def test_a_sender_whose_process_is_gone_lets_go_at_once(robot: Robot) -> None:
     robot.node.leaves(8)
     assert robot.chip.pulses != NEUTRAL
     robot.node.leaves(7)
+    robot.node.ring(robot.clock.time)
     assert robot.chip.pulses == NEUTRAL
     assert (robot.status.state, robot.status.why) == ("link lost", "keyboard is gone")
 
@@ -364,6 +369,16 @@ def test_a_flood_is_answered_at_most_200_times_a_second(robot: Robot) -> None:
         robot.say(Pwm(380 + number % 20, 370))
         robot.clock.pass_by(0.0001)
     assert 0.1 / AT_MOST_EVERY - 1 <= len(robot.chip.writes) <= 0.1 / AT_MOST_EVERY + IN_A_ROW
+
+
+def test_a_crowd_that_leaves_is_answered_at_most_200_times_a_second(robot: Robot) -> None:
+    robot.tick()
+    robot.chip.writes.clear()
+    for number in range(1000):
+        robot.node.leaves(1000 + number)
+        robot.clock.pass_by(0.0001)
+        robot.node.ring(robot.clock.time)
+    assert len(robot.chip.writes) <= 0.1 / AT_MOST_EVERY + IN_A_ROW
 
 
 def test_silence_is_heard_by_the_clock(robot: Robot) -> None:
@@ -426,3 +441,22 @@ def test_every_start_is_an_epoch_that_any_reader_of_json_can_count(robot: Robot,
     other = Robot(Node(), clock)
     assert robot.beat.epoch != other.beat.epoch
     assert 0 <= robot.beat.epoch < 2**53
+
+
+def test_a_weak_supply_slows_it_down_and_is_told(node: Node, clock: Clock, tmp_path: Path) -> None:
+    volt = tmp_path / "class/hwmon/hwmon0"
+    volt.mkdir(parents=True)
+    (volt / "name").write_text("rpi_volt\n")
+    (volt / "in0_lcrit_alarm").write_text("0\n")
+    robot = Robot(node, clock, health=Health(tmp_path, node.log))
+    node.timers[LOOK_EVERY]()
+    assert (robot.status.max_speed, robot.status.slowed) == (3.0, "")
+    (volt / "in0_lcrit_alarm").write_text("1\n")
+    node.timers[LOOK_EVERY]()
+    robot.tick()
+    assert robot.status.max_speed == 1.5
+    assert "undervoltage" in robot.status.slowed
+    assert any("undervoltage" in words for words in node.warnings)
+    node.timers[DESCRIBE_EVERY]()
+    caps = [layer.says for layer in node.said["why"].messages[-1].layers if layer.name == "cap"]
+    assert caps == ["1.5 of 3 m/s: the Pi's supply is too low (undervoltage); use a better one"]

@@ -224,3 +224,9 @@ def test_a_frozen_one_is_killed() -> None:
     child.ask_to_end()
     child.end(0.0)
     assert child.end(2.0) == -signal.SIGKILL
+
+
+@pytest.mark.parametrize("stepped", [float("nan"), float("inf"), 1e308, 1000.0])
+def test_a_step_at_no_time_or_yet_to_come_is_silence(child: Child, stepped: float) -> None:
+    child.newest = Report(stepped, 1, 0.0)
+    assert child.silence(999.0) == float("inf")

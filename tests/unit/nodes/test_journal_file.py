@@ -181,3 +181,12 @@ def read_all(reader: int, writer: threading.Thread) -> list[dict[str, Any]]:
         data += chunk
     writer.join(10)
     return [json.loads(text) for text in data.splitlines() if text]
+
+
+def test_a_pipe_that_nobody_reads_is_not_waited_for(path: Path) -> None:
+    path.parent.mkdir()
+    os.mkfifo(path)
+    file = JournalFile(path)
+    file.put(line())
+    file.close()
+    assert str(path) in file.trouble

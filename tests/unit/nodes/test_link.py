@@ -138,3 +138,10 @@ def test_the_socket_can_be_adopted_by_its_number() -> None:
     assert dog.read() == report(3)
     actuator.close()
     dog.close()
+
+
+@pytest.mark.parametrize("text", [b"", b"{}", b"\xff", b'{"by":"\xff"}', b"[" * 5000, TEXT + b"}"])
+def test_a_stop_that_cannot_be_read_ends_the_actuator_in_words(ends: Ends, text: bytes) -> None:
+    ends.dog._send(b"s" + len(text).to_bytes(2, "little") + text)
+    with pytest.raises(DeviceError, match="the watchdog's stop cannot be read; the actuator ends, at rest"):
+        [ends.actuator.read() for _ in range(3)]

@@ -401,3 +401,27 @@ def test_what_was_heard_before_a_stop_does_not_answer_it(desk: Desk) -> None:
     desk.device.stop_wish = True
     desk.tick(round(PATIENCE / PERIOD) + 2, beats=False)
     assert desk.views[-1].alarm
+
+
+def test_what_was_typed_while_the_process_stood_still_is_dropped(desk: Desk, clock: Clock) -> None:
+    desk.tick(3)
+    desk.device.resets.clear()
+    clock.pass_by(0.6)
+    desk.node.hear(clock.time)
+    desk.teleop.obey()
+    assert desk.device.resets == [clock.time]
+    desk.tick(3)
+    assert len(desk.device.resets) == 1
+
+
+def test_a_stop_typed_while_the_process_stood_still_counts_and_a_release_does_not(
+    desk: Desk, clock: Clock
+) -> None:
+    desk.hear_state("stopped", 7)
+    desk.tick()
+    for wish, said in ((False, []), (True, [True])):
+        clock.pass_by(0.6)
+        desk.device.stop_wish = wish
+        desk.tick()
+        assert [stop.engaged for stop in desk.stops.take()] == said
+        assert desk.device.stop_wish is None

@@ -1,0 +1,12 @@
+"""A zenoh router between both machines: python -m faults.link.router ENDPOINT."""
+
+import signal
+import sys
+
+from zteleop.bus.session import BusSettings, open_session
+
+if __name__ == "__main__":
+    with open_session(BusSettings(mode="router", listen=[sys.argv[1]], multicast=False)):
+        sys.stdout.write("ready\n")
+        sys.stdout.flush()
+        signal.pause()

@@ -1,0 +1,124 @@
+"""A link that is late costs speed, between real processes, measured at the chip from outside."""
+
+import socket
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from queue import SimpleQueue
+
+from rig import NEUTRAL, Process, Rig, Watch, hear, until
+
+from zteleop.messages import DriveStatus
+
+FULL = "{linear: {x: 3.0}}"
+FULL_TICKS = 500
+BUSY = 40.0
+"""s of patience with a machine so busy that it is late itself; each time costs speed for 5 s."""
+LATE = 0.09
+"""s each way: a command is then 0.18 s old, and as much older as its beat was when it was made."""
+
+
+def carry(here: socket.socket, there: socket.socket) -> None:
+    """Pass on what one end says, LATE and in order, until it ends."""
+    waiting: SimpleQueue[tuple[float, bytes]] = SimpleQueue()
+
+    def pass_on() -> None:
+        data = b"begin"
+        while data:
+            due, data = waiting.get()
+            time.sleep(max(0.0, due - time.monotonic()))
+            with suppress(OSError):
+                there.sendall(data) if data else there.shutdown(socket.SHUT_WR)
+
+    sender = threading.Thread(target=pass_on)
+    sender.start()
+    data = b"begin"
+    while data:
+        try:
+            data = here.recv(65536)
+        except OSError:
+            data = b""
+        waiting.put((time.monotonic() + LATE, data))
+    sender.join()
+
+
+@contextmanager
+def late_link(port: int) -> Iterator[int]:
+    """Lend a port that leads to another one, late; for one that connects."""
+    listener = socket.create_server(("127.0.0.1", 0))
+    ends: list[socket.socket] = []
+    threads: list[threading.Thread] = []
+
+    def accept() -> None:
+        with suppress(OSError):
+            while True:
+                here, there = listener.accept()[0], socket.create_connection(("127.0.0.1", port))
+                ends.extend((here, there))
+                for way in ((here, there), (there, here)):
+                    threads.append(threading.Thread(target=carry, args=way))
+                    threads[-1].start()
+
+    acceptor = threading.Thread(target=accept)
+    acceptor.start()
+    try:
+        yield int(listener.getsockname()[1])
+    finally:
+        listener.shutdown(socket.SHUT_RDWR)
+        acceptor.join()
+        for end in ends:
+            with suppress(OSError):
+                end.shutdown(socket.SHUT_RDWR)
+        for thread in threads:
+            thread.join()
+        for end in (listener, *ends):
+            end.close()
+
+
+def drive(rig: Rig, port: int | None = None) -> Process:
+    """Ask for full speed, 50 times a second, from a process of its own."""
+    return rig.join("pub", "cmd_vel/keyboard", "Twist", FULL, "-r", "50", port=port)
+
+
+def settled(status: DriveStatus) -> bool:
+    return status.state == "driving" and status.applied.linear.x > status.max_speed - 0.05
+
+
+def test_a_good_link_is_not_slowed_down(rig: Rig) -> None:
+    rig.actuator()
+    statuses = rig.node().subscription("drive_status", DriveStatus)
+    drive(rig)
+    until(lambda: rig.ticks == (NEUTRAL[0], FULL_TICKS), "full throttle", BUSY)
+    said = hear(statuses, settled, "full speed")
+    assert (said.max_speed, said.slowed) == (3.0, "")
+    assert 0 < said.latency < 0.15
+    assert "m/s: commands of keyboard are up to" in rig.result("why", *rig.bus_options()).stdout
+
+
+def test_a_late_link_is_driven_slower_and_says_why(rig: Rig) -> None:
+    rig.actuator()
+    statuses = rig.node().subscription("drive_status", DriveStatus)
+    with late_link(rig.port) as port, Watch(rig) as watch:
+        program = drive(rig, port)
+        said = hear(statuses, settled, "as fast as it may")
+        assert 1.5 <= said.max_speed < 2.85
+        assert 2 * LATE < said.latency <= 0.3
+        assert said.slowed.startswith("commands of keyboard are up to ")
+        why = rig.result("why", *rig.bus_options()).stdout
+        assert " of 3 m/s: commands of keyboard are up to " in why
+        assert "it must stop as soon as on a good link" in why
+        program.close()
+        until(lambda: rig.ticks == NEUTRAL, "neutral")
+    fastest = max(throttle or 0 for _, throttle in watch.seen)
+    assert NEUTRAL[1] + 60 < fastest < FULL_TICKS - 5
+
+
+def test_the_keyboards_screen_says_in_a_line_that_the_link_is_late(rig: Rig) -> None:
+    rig.actuator()
+    with late_link(rig.port) as port:
+        seat = rig.terminal("keyboard", *rig.bus_options(f"tcp/127.0.0.1:{port}"))
+        seat.shows("nobody operates")
+        seat.type("\x1b[A")
+        seat.shows("driving", "at most 2.", "commands of keyboard are up to ")
+        seat.type("q")
+        seat.ends()

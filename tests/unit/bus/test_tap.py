@@ -1,0 +1,80 @@
+from typing import Any
+
+import pytest
+import zenoh
+from unit.bus.fakes import Clock, Ring, Sample, Session
+
+from zteleop.bus import tap as module
+from zteleop.bus.tap import Raw, Tap
+
+PREFIX = "robot/archangel/"
+
+
+class Bench:
+    def __init__(self) -> None:
+        self.session: Any = Session()
+        self.tap = Tap(self.session, "archangel", ["stop", "beat"])
+
+    def announce(self, *paths: str) -> None:
+        key = "{}live/pub/nose/host-1/any/{}"
+        self.session.alive.ring.samples.extend(Sample(b"", key=key.format(PREFIX, path)) for path in paths)
+
+    def say(self, path: str, *samples: Sample) -> None:
+        self.session.rings[PREFIX + path].samples.extend(samples)
+
+    def paths(self) -> list[str]:
+        return [raw.path for raw in self.tap.take()]
+
+
+@pytest.fixture
+def bench(clock: Clock) -> Bench:
+    return Bench()
+
+
+def test_a_message_is_taken_in_its_bytes(bench: Bench, clock: Clock) -> None:
+    bench.say("stop", Sample(b"\xff", "text/plain", f"{PREFIX}stop", b"proof"))
+    assert list(bench.tap.take()) == [Raw(clock.time, "stop", "text/plain", b"\xff", b"proof", False)]
+
+
+def test_without_an_attachment_there_are_no_bytes_of_it(bench: Bench) -> None:
+    bench.say("stop", Sample(b"", key=f"{PREFIX}stop"))
+    assert next(bench.tap.take()).attachment == b""
+
+
+def test_a_delete_is_told_apart(bench: Bench) -> None:
+    bench.say("stop", Sample(b"", key=f"{PREFIX}stop", kind=zenoh.SampleKind.DELETE))
+    assert next(bench.tap.take()).deleted
+
+
+def test_what_a_node_says_that_it_publishes_is_heard_from_then_on(bench: Bench) -> None:
+    bench.announce("lidar/front", "lidar/front", "stop")
+    assert bench.paths() == []
+    bench.say("lidar/front", Sample(b"", key=f"{PREFIX}lidar/front"))
+    assert bench.paths() == ["lidar/front"]
+
+
+def test_what_nobody_announced_is_not_asked_for(bench: Bench) -> None:
+    bench.announce("lidar/*", "cmd_vel/++")
+    assert bench.paths() == []
+    assert set(bench.session.rings) == {f"{PREFIX}stop", f"{PREFIX}beat"}
+
+
+def test_announcements_without_end_are_not_all_heard(bench: Bench) -> None:
+    bench.announce(*(f"chatter_{number}" for number in range(100)))
+    assert bench.paths() == []
+    assert len(bench.session.rings) == module.MOST
+
+
+def test_a_wildcard_is_taken_under_its_whole_key(bench: Bench) -> None:
+    bench.say("stop", Sample(b"", key="robot/*/stop"))
+    assert bench.paths() == ["robot/*/stop"]
+
+
+def test_a_flood_leaves_the_others_their_turn(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+    class Endless(Ring):
+        def try_recv(self) -> Sample:
+            return Sample(b"", key=f"{PREFIX}stop")
+
+    bench.tap._inboxes["stop"] = Endless()
+    bench.say("beat", Sample(b"", key=f"{PREFIX}beat"))
+    assert bench.paths() == ["stop"] * module.DEPTH + ["beat"]

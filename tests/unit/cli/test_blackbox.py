@@ -1,0 +1,145 @@
+import json
+import os
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from zteleop.bus import codec
+from zteleop.bus.tap import Raw
+from zteleop.cli import main
+from zteleop.messages import DriveStatus, String
+from zteleop.nodes.blackbox_file import Header, Reason, utc, write
+
+AT = 100.0
+WHY = "keyboard has been silent for 0.3 s"
+
+
+def raw(at: float, path: str, message: Any) -> Raw:
+    return Raw(AT + at, path, codec.encoding_of(type(message)), codec.encode(message), b"", False)
+
+
+def status(at: float, state: str, why: str) -> Raw:
+    message = DriveStatus.zero()
+    message.state, message.why = state, why  # type: ignore[assignment]
+    return raw(at, "drive_status", message)
+
+
+SAID = [
+    status(-8.0, "driving", "keyboard drives"),
+    raw(-1.0, "chatter", String("hello\x1b[2J\u202e")),
+    status(0.0, "link lost", WHY),
+    status(1.0, "idle", "nobody\x1b[31m\nx"),
+]
+
+
+@pytest.fixture
+def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def keep(home: Path, robot: str = "archangel", second: int = 0, said: list[Raw] = SAID) -> Path:
+    trigger = Reason(AT, "link-lost", WHY)
+    time = utc(1_700_000_000 + second)
+    header = Header(1, robot, "1", AT, time, trigger.reason, WHY, 60.0, 14, [trigger])
+    path = write(home / f"zteleop/robots/{robot}/blackbox", header, said)
+    os.utime(path, (second, second))
+    return path
+
+
+def show(capsys: pytest.CaptureFixture[str], *arguments: str) -> list[str]:
+    assert main(["blackbox", *arguments]) == 0
+    return capsys.readouterr().out.splitlines()
+
+
+def fails(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
+    assert main(["blackbox", *arguments]) == 1
+    (words,) = capsys.readouterr().err.splitlines()
+    return words
+
+
+def test_the_newest_is_told_as_a_timeline(home: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    keep(home, second=0, said=[])
+    path = keep(home, second=60)
+    assert show(capsys) == [
+        "black box of archangel: link lost, 2023-11-14 22:14:20 UTC, 60 s of 14 topics",
+        "    -8.00 s  driving: keyboard drives",
+        f"     0.00 s  link lost: {WHY}   <- written because of this",
+        "    +1.00 s  idle: nobody\\u001b[31m\\u000ax",
+        f"({path})",
+    ]
+
+
+@pytest.mark.parametrize("arguments", [["anna"], ["--robot", "anna"]])
+def test_a_robot_can_be_named(home: Path, capsys: pytest.CaptureFixture[str], arguments: list[str]) -> None:
+    keep(home, "anna", 0)
+    keep(home, "bert", 60)
+    assert show(capsys, *arguments)[0].startswith("black box of anna")
+    assert show(capsys)[0].startswith("black box of bert")
+
+
+def test_a_file_from_elsewhere_is_shown(home: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    keep(home).rename(home / "copied")
+    assert show(capsys, "copied")[0].startswith("black box of archangel")
+    assert show(capsys, str(home / "copied"))[-1].endswith("\\u000ax")
+
+
+def test_every_message_can_be_a_line(home: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    keep(home)
+    lines = show(capsys, "--all")
+    assert len(lines) == 1 + len(SAID) + 1
+    assert lines[2] == (
+        "    -1.00 s  robot/archangel/chatter  application/json;std_msgs/msg/String"
+        '  {"data":"hello\\u001b[2J\\u202e"}'
+    )
+
+
+def test_the_timeline_can_be_json(home: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    keep(home)
+    lines = [json.loads(line) for line in show(capsys, "--json")]
+    assert [(line["at"], line["reason"]) for line in lines] == [(-8.0, False), (0.0, True), (1.0, False)]
+
+
+def test_files_are_listed_with_when_why_whose_and_how_large(
+    home: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def size(path: Path) -> str:
+        return f"{path.stat().st_size / 1000:.1f}"
+
+    first, second = keep(home, "anna", 0), keep(home, "bert", 60)
+    lines = show(capsys, "--list")
+    assert [line.split() for line in lines] == [
+        ["2023-11-14", "22:13:20", "UTC", "link-lost", "anna", size(first), "kB", str(first)],
+        ["2023-11-14", "22:14:20", "UTC", "link-lost", "bert", size(second), "kB", str(second)],
+    ]
+    assert len(show(capsys, "--list", "anna")) == 1
+
+
+def test_without_a_file_one_sentence_says_when_there_is_one(
+    home: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert "no robot of this machine has a black box" in fails(capsys)
+    assert "no robot of this machine has a black box" in fails(capsys, "--list")
+    keep(home)
+    assert "nobody has no black box" in fails(capsys, "nobody")
+
+
+@pytest.mark.parametrize("what", ["../..", "none.gz", "./none", "No Robot"])
+def test_what_is_neither_a_robot_nor_a_file_is_one_sentence(
+    home: Path, capsys: pytest.CaptureFixture[str], what: str
+) -> None:
+    assert fails(capsys, what).startswith("zteleop blackbox: ")
+
+
+def test_of_a_torn_file_the_rest_is_shown_and_said(home: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = keep(home)
+    path.write_bytes(path.read_bytes()[:-20])
+    lines = show(capsys, str(path))
+    assert lines[0].startswith("black box of archangel")
+    assert lines[-1] == "not all of this file can be shown: its end is missing"
+    assert main(["blackbox", "--json", str(path)]) == 0
+    told = capsys.readouterr()
+    assert [json.loads(line) for line in told.out.splitlines()]
+    assert told.err == "not all of this file can be shown: its end is missing\n"

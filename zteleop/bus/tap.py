@@ -1,0 +1,70 @@
+"""Everything that is said of one robot, as it came: nothing is decoded, and nobody is held up."""
+
+from collections.abc import Iterable, Iterator
+from typing import Any, NamedTuple
+
+import zenoh
+
+from zteleop.bus import clock
+from zteleop.bus.presence import Publications
+
+DEPTH = 500
+"""messages that wait on each path; a flood beyond it loses the oldest"""
+MOST = 64
+"""paths that are heard at once"""
+
+
+class Raw(NamedTuple):
+    """A message in its bytes."""
+
+    at: float
+    """when it was taken, by the bus clock"""
+    path: str
+    """its key below the robot; the whole key where that has a wildcard"""
+    encoding: str
+    payload: bytes
+    attachment: bytes
+    deleted: bool
+    """a delete, which is no message"""
+
+
+class Tap:
+    """Hears the `known` paths of a robot, and those on which a node has said that it publishes.
+
+    It asks for nothing else: a stranger's flood passes nobody, as long as nobody hears it.
+    """
+
+    def __init__(self, session: zenoh.Session, robot: str, known: Iterable[str]) -> None:
+        self._session, self._prefix = session, f"robot/{robot}/"
+        self._inboxes: dict[str, Any] = {}
+        for path in known:
+            self._hear(path)
+        self._publications = Publications(session, robot)
+
+    def take(self) -> Iterator[Raw]:
+        """Yield what has arrived, topic by topic, without waiting."""
+        for path in self._publications.take():
+            if path not in self._inboxes and len(self._inboxes) < MOST:
+                self._hear(path)
+        now = clock.now()
+        for inbox in self._inboxes.values():
+            for _ in range(DEPTH):  # a flood must not keep the others waiting for ever
+                if (sample := inbox.try_recv()) is None:
+                    break
+                yield _raw(sample, str(sample.key_expr).removeprefix(self._prefix), now)
+
+    def _hear(self, path: str) -> None:
+        key = self._prefix + path
+        self._inboxes[path] = self._session.declare_subscriber(key, zenoh.handlers.RingChannel(DEPTH))
+
+
+def _raw(sample: zenoh.Sample, path: str, now: float) -> Raw:
+    attachment = sample.attachment
+    return Raw(
+        now,
+        path,
+        str(sample.encoding),
+        bytes(sample.payload),
+        b"" if attachment is None else bytes(attachment),
+        sample.kind != zenoh.SampleKind.PUT,
+    )

@@ -1,0 +1,167 @@
+"""A robot to do things to: its processes, an eye on its chip, and a place for whoever drives it."""
+
+import os
+import secrets
+import tempfile
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import NamedTuple, Self
+
+from zteleop.bus.node import Node
+from zteleop.bus.session import BusSettings
+from zteleop.chaos.cable import Cable
+from zteleop.chaos.eye import Eye, open_eye
+from zteleop.chaos.process import ZTELEOP, Process, actuator_of
+from zteleop.config import Config
+from zteleop.drivers.faults import Faults
+from zteleop.errors import BusError
+from zteleop.messages import DriveStatus, Stop, Twist
+
+START = 10.0
+LOOK = 0.0005
+SABOTAGE = Path(__file__).with_name("sabotage")
+
+
+class Subject(NamedTuple):
+    """The robot that is meant."""
+
+    settings: Config
+    options: tuple[str, ...] = ()
+    """of `zteleop actuator`"""
+    environment: dict[str, str] = {}
+    chip: str = ""
+    """The file of a chip that is none of the bench's own, nor real."""
+
+
+class Bench:
+    """One start of a robot; whatever was started ends with it."""
+
+    def __init__(self, subject: Subject) -> None:
+        self.subject, self.settings = subject, subject.settings
+        self.robot = f"chaos-{secrets.token_hex(2)}"
+        self.folder = Path(tempfile.mkdtemp(prefix="zt-"))
+        self.door = self.folder / "door"
+        own = f"{self.folder}/zteleop/{self.robot}.pca9685" if self.settings.driver == "simulated" else ""
+        self.chip = subject.chip or own
+        self.order = self.folder / "order"
+        self.environment = os.environ | self._surroundings() | subject.environment
+        limits, mixer = self.settings.drive.limits, self.settings.drive.mixer
+        self.command = Twist.planar(limits.speed_of(mixer) / 4, limits.turn_of(mixer) / 8)
+        self.operator: Process | None = None
+        """whoever drives, where it is a process of its own"""
+        self.keys = -1
+        """what types into the operator's terminal, where it has one"""
+        self.hands_off = False
+        """the keys are left alone"""
+        self.others: list[Node] = []
+        """more people on the bus"""
+        self.notes: list[str] = []
+        """what a certificate should say besides"""
+        self._stack = ExitStack()
+
+    def __enter__(self) -> Self:
+        try:
+            self._start()
+        except BaseException:
+            self.__exit__()
+            raise
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._stack.close()
+        for place in sorted(self.folder.rglob("*"), reverse=True):
+            place.rmdir() if place.is_dir() and not place.is_symlink() else place.unlink()
+        self.folder.rmdir()
+
+    def _surroundings(self) -> dict[str, str]:
+        path = filter(None, (str(SABOTAGE), os.environ.get("PYTHONPATH")))
+        return {
+            "XDG_STATE_HOME": f"{self.folder}/state",
+            "XDG_RUNTIME_DIR": str(self.folder),
+            "PYTHONPATH": os.pathsep.join(path),
+            "ZTELEOP_CHAOS_ORDER": str(self.order),
+        }
+
+    def _start(self) -> None:
+        self.eye: Eye = open_eye(self.settings, self.robot, self.chip)
+        self._stack.callback(self.eye.close)
+        where = ("--robot", self.robot, "--no-multicast-scouting", "--listen", endpoint(self.door))
+        self.watchdog = self.run("actuator", [*ZTELEOP, "actuator", *where, *self.subject.options])
+        self.await_robot()
+        self.node = self.join()
+        self.statuses = self.node.subscription("drive_status", DriveStatus)
+        self.stops = self.node.publisher("stop", Stop)
+
+    def await_robot(self) -> None:
+        """Wait until it can be joined; raises BusError with its last words when it ends."""
+        give_up = time.monotonic() + START
+        while not self.door.exists():
+            if self.watchdog.ended or time.monotonic() > give_up:
+                raise BusError(f"the robot did not start: {self.watchdog.words}")
+            time.sleep(LOOK)
+
+    def run(self, name: str, command: Sequence[str], terminal: int | None = None) -> Process:
+        """Start a process that ends with the bench."""
+        process = Process(name, command, self.environment, self.folder, terminal)
+        self._stack.callback(process.end)
+        return process
+
+    def join(self, place: Path | None = None) -> Node:
+        """Join the robot's bus from here, by its own door or by a cable's."""
+        bus = BusSettings(mode="client", connect=[endpoint(place or self.door)], multicast=False)
+        node = Node("chaos", self.robot, bus)
+        node.log.show = lambda line: None
+        self._stack.callback(node.close)
+        return node
+
+    def cable(self) -> Cable:
+        """Return a link to the robot's door that can be cut."""
+        self.link = Cable(self.folder / "cable", self.door)
+        self._stack.callback(self.link.close)
+        return self.link
+
+    @property
+    def actuator(self) -> int:
+        """The process that obeys; raises BusError while there is none."""
+        found = actuator_of(self.watchdog.pid)
+        if found is None:
+            raise BusError(f"no actuator runs: {self.watchdog.words}")
+        return found
+
+    @contextmanager
+    def faults(self) -> Iterator[Faults]:
+        """Open a simulated chip for faults to be put in; what no transfer has met stays."""
+        faults = Faults(self.chip)
+        try:
+            yield faults
+        finally:
+            faults.close()
+
+    @property
+    def status(self) -> DriveStatus | None:
+        """What the robot says of itself, if it has said anything since the last look."""
+        return self.statuses.newest()
+
+    def until(self, condition: Callable[[], object], patience: float) -> float | None:
+        """Look until a condition holds; return when, by the monotonic clock, or None if it never does."""
+        give_up = time.monotonic() + patience
+        while not condition():
+            if time.monotonic() > give_up:
+                return None
+            time.sleep(LOOK)
+        return time.monotonic()
+
+    def press_stop(self, node: Node | None = None) -> None:
+        """Press Stop once."""
+        stop = Stop(engaged=True, id=secrets.randbits(53), by="chaos", why="")
+        (node.publisher("stop", Stop) if node else self.stops).publish(stop)
+
+    def release(self, stop: int) -> None:
+        """Release the stop of that id."""
+        self.stops.publish(Stop(engaged=False, id=stop, by="chaos", why=""))
+
+
+def endpoint(place: Path) -> str:
+    return f"unixsock-stream/{place}"

@@ -1,0 +1,74 @@
+"""A chip that does not answer, forgets, is written by somebody else, or is gone."""
+
+import os
+import time
+from collections.abc import Callable
+
+from zteleop.chaos.bench import Bench
+from zteleop.chaos.fault import Act, Fault
+from zteleop.chaos.people import press
+from zteleop.drivers import open_driver
+from zteleop.drivers.faults import Faults
+
+FOREVER = 2**32 - 1
+OUTAGE = 1.0
+
+
+def once(put: Callable[[Faults], object]) -> Act:
+    """Put a fault in, and leave it to the next transfers."""
+
+    def strike(bench: Bench) -> None:
+        with bench.faults() as faults:
+            put(faults)
+
+    return strike
+
+
+def now_and_then(bench: Bench) -> None:
+    """Let about every third transfer fail, for a while."""
+    with bench.faults() as faults:
+        for _ in range(100):
+            faults.nack(1)
+            time.sleep(0.025)
+
+
+def outage(put: Callable[[Faults], object]) -> Act:
+    """Let every transfer fail for a while; return when the chip is back."""
+
+    def strike(bench: Bench) -> float:
+        with bench.faults() as faults:
+            put(faults)
+            time.sleep(OUTAGE)
+            faults.clear()
+            return time.monotonic()
+
+    return strike
+
+
+def write_beside(bench: Bench) -> float:
+    """Stop the robot, and then write full throttle to the chip as another program would."""
+    press(bench)
+    bench.until(lambda: bench.eye.at_rest, 1.0)
+    settings = bench.settings
+    values = settings.driver_settings(settings.driver, bench.robot) | {"path": bench.chip}
+    stranger = open_driver(settings.driver, values, exclusive=False)
+    stranger.write({servo.channel: servo.max_us for servo in settings.drive.servos.values()})
+    written = time.monotonic()
+    stranger.close()
+    return written
+
+
+def remove_file(bench: Bench) -> None:
+    os.unlink(bench.chip)
+
+
+FAULTS = (
+    Fault("chip does not answer once", once(lambda f: f.nack(1)), None, "drives", simulated=True),
+    Fault("chip answers two times of three", now_and_then, None, "drives", simulated=True),
+    Fault("chip back after 1 s", outage(lambda f: f.nack(FOREVER)), 0.2, simulated=True),
+    Fault("bus hangs for 1 s", outage(lambda f: f.hang(FOREVER, 20)), 0.3, simulated=True),
+    Fault("a write is torn", once(lambda f: f.tear(1, 3)), None, "drives", simulated=True),
+    Fault("chip loses its supply", once(lambda f: f.brown_out()), 0.2, simulated=True),
+    Fault("another program writes to the chip", write_beside, simulated=True),
+    Fault("chip's file is removed", remove_file, 0.3, simulated=True),
+)

@@ -1,0 +1,28 @@
+"""What can happen to a robot that drives, and what must follow."""
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+if TYPE_CHECKING:
+    from zteleop.chaos.bench import Bench
+
+Act = Callable[["Bench"], object]
+
+
+class Fault(NamedTuple):
+    """Something that is done to a robot which somebody drives."""
+
+    name: str
+    strike: Act
+    bound: float | None = 0.05
+    """s until its wheels are at rest; None where it may drive on"""
+    then: Literal["rests", "drives", "either"] = "rests"
+    """What follows while its operator goes on: `rests` for good, or `drives`, at the latest after a pause."""
+    operator: Literal["here", "far", "program", "keyboard"] = "here"
+    """Who drives: this process (far: behind a link), a program of its own, or keys in a terminal."""
+    before: Act = lambda _: None
+    """Done before somebody drives."""
+    afterwards: Act = lambda _: None
+    """Done once its wheels are at rest."""
+    simulated: bool = False
+    """Only a simulated chip can be given it."""

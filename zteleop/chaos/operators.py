@@ -1,0 +1,112 @@
+"""Who drives the robot on a bench, and goes on whatever happens to it."""
+
+import os
+import pty
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+
+from zteleop.bus.node import Node
+from zteleop.chaos.bench import Bench, endpoint
+from zteleop.chaos.process import ZTELEOP
+from zteleop.messages import Twist
+
+PERIOD = 0.02
+PRESS = 0.7
+"""s between key presses: any faster, and they are those of a key that is held."""
+LEFT = b"a"
+"""The key that turns to the left."""
+IN_TERMINAL = """
+import fcntl, os, sys, termios
+fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+os.execv(sys.executable, [sys.executable, *sys.argv[1:]])
+"""
+
+
+@contextmanager
+def here(bench: Bench, node: Node | None = None) -> Iterator[None]:
+    """Command from this process, 50 times a second; each is an act."""
+    motors = (node or bench.node).publisher("cmd_vel", Twist, source="keyboard")
+    ended = threading.Event()
+
+    def drive() -> None:
+        due = time.monotonic()
+        while not ended.wait(max(0.0, due - time.monotonic())):
+            due += PERIOD
+            motors.publish(bench.command)
+
+    thread = threading.Thread(target=drive, daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        ended.set()
+        thread.join()
+
+
+@contextmanager
+def far(bench: Bench) -> Iterator[None]:
+    """Command from this process, behind a cable that can be cut."""
+    cable = bench.cable()
+    with here(bench, bench.join(cable.place)):
+        yield
+
+
+@contextmanager
+def program(bench: Bench) -> Iterator[None]:
+    """Command from a program of its own, 50 times a second."""
+    linear, angular = bench.command.linear.x, bench.command.angular.z
+    values = f"{{linear: {{x: {linear}}}, angular: {{z: {angular}}}}}"
+    command = [*ZTELEOP, "pub", "cmd_vel/keyboard", "Twist", values, "-r", "50", *_where(bench)]
+    bench.operator = bench.run("operator", command)
+    yield
+
+
+@contextmanager
+def keyboard(bench: Bench) -> Iterator[None]:
+    """Drive with the keys of a terminal, which is pressed until the robot moves."""
+    master, slave = pty.openpty()
+    ended = threading.Event()
+    command = [sys.executable, "-c", IN_TERMINAL, "-m", "zteleop", "keyboard", "--drive", "step"]
+    bench.operator = process = bench.run("operator", [*command, *_where(bench)], slave)
+    bench.keys = master
+    os.close(slave)
+    threads = [
+        threading.Thread(target=work, args=(bench, master, ended), daemon=True) for work in (_show, _press)
+    ]
+    for thread in threads:
+        thread.start()
+    try:
+        yield
+    finally:
+        ended.set()
+        process.end()
+        for thread in threads:
+            thread.join()
+        with suppress(OSError):
+            os.close(master)
+
+
+OPERATORS = {"here": here, "far": far, "program": program, "keyboard": keyboard}
+
+
+def _show(bench: Bench, master: int, ended: threading.Event) -> None:
+    """Take what the terminal would show."""
+    with suppress(OSError):  # the other end is closed
+        while os.read(master, 65536):
+            pass
+
+
+def _press(bench: Bench, master: int, ended: threading.Event) -> None:
+    """Press a key again and again, as somebody who does not give up."""
+    with suppress(OSError):
+        while not ended.wait(PRESS):
+            if not bench.hands_off:
+                os.write(master, LEFT)
+
+
+def _where(bench: Bench) -> list[str]:
+    bus = ["--mode", "client", "--connect", endpoint(bench.door), "--no-multicast-scouting"]
+    return ["--robot", bench.robot, *bus]

@@ -1,0 +1,40 @@
+"""Several people at once, or one who does the wrong thing."""
+
+from zteleop.chaos.bench import Bench
+from zteleop.chaos.fault import Fault
+
+PATIENCE = 2.0
+
+
+def press(bench: Bench) -> None:
+    bench.press_stop()
+
+
+def go_to_three_places(bench: Bench) -> None:
+    bench.others = [bench.join() for _ in range(3)]
+
+
+def press_at_three_places(bench: Bench) -> None:
+    """Press Stop at places that do not know of each other."""
+    for node in bench.others:
+        bench.press_stop(node)
+
+
+def release(bench: Bench) -> None:
+    """Release whatever stop is in force, while somebody goes on all the time."""
+
+    def released() -> bool:
+        status = bench.status
+        if status and status.stop:
+            bench.release(status.stop)
+        return bool(status and not status.stop)
+
+    bench.until(lambda: (status := bench.status) and status.stop, PATIENCE)
+    bench.until(released, PATIENCE)
+
+
+FAULTS = (
+    Fault("stop pressed", press, 0.03),
+    Fault("stop pressed at three places", press_at_three_places, 0.03, before=go_to_three_places),
+    Fault("stop released under a held key", press, 0.03, afterwards=release),
+)

@@ -1,0 +1,35 @@
+"""Every Python process of a bench imports this at its start, and does what an order says at SIGUSR1.
+
+Python looks for a module of this name by itself; the bench puts this folder in front of its path.
+"""
+
+import atexit
+import ctypes
+import os
+import signal
+import threading
+import time
+from types import FrameType
+
+ORDER = "ZTELEOP_CHAOS_ORDER"
+
+
+class SabotageError(Exception):
+    """An error that nobody foresaw."""
+
+
+def obey(number: int, frame: FrameType | None) -> None:
+    """Do the order of the moment: `raise THREAD` or `hang`."""
+    with open(os.environ[ORDER]) as file:
+        word, _, name = file.read().partition(" ")
+    if word == "hang":
+        atexit.register(time.sleep, 3600.0)
+    for thread in threading.enumerate() if word == "raise" else ():
+        if thread.name.startswith(name):
+            ctypes.pythonapi.PyThreadState_SetAsyncExc(
+                ctypes.c_ulong(thread.ident or 0), ctypes.py_object(SabotageError)
+            )
+
+
+if ORDER in os.environ:
+    signal.signal(signal.SIGUSR1, obey)

@@ -1,0 +1,98 @@
+import argparse
+import sys
+
+import msgspec
+
+from zteleop import chaos, config
+from zteleop.chaos.bench import Subject
+from zteleop.chaos.certificate import HEAD, certify, verdict
+from zteleop.chaos.fault import Fault
+from zteleop.chaos.trial import Outcome, attempt
+from zteleop.cli import options
+from zteleop.config import Config
+from zteleop.errors import ConfigError, ZteleopError
+
+CONSENT = "wheels up"
+LATER = 0.007
+"""s by which each trial strikes later than the one before: at another moment of every period"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    options.add_config(parser)
+    parser.add_argument("--times", metavar="N", type=options.count, default=3, help="each fault (default: 3)")
+    parser.add_argument("--only", metavar="TEXT", default="", help="the faults whose kind or name holds this")
+    parser.add_argument("--list", action="store_true", help="say what would be done, and do nothing")
+    parser.add_argument("--json", action="store_true", help="print the certificate as JSON")
+    parser.add_argument("--real", action="store_true", help="on the config file's chip, with its wheels up")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Do every fault to a robot; 0 when each kept its bound, every time."""
+    faults = [(kind, fault) for kind, fault in chaos.faults() if arguments.only in f"{kind}: {fault.name}"]
+    if not faults:
+        raise ConfigError(f"no fault is called {arguments.only!r}; zteleop chaos --list shows them")
+    if arguments.list:
+        print("\n".join(f"{kind:10} {fault.name}" for kind, fault in faults))
+        return 0
+    subject = _subject(arguments)
+    left_out = [fault.name for _, fault in faults if fault.simulated and arguments.real]
+    faults = [(kind, fault) for kind, fault in faults if fault.name not in left_out]
+    _say(HEAD, arguments)
+    verdicts = []
+    for kind, fault in faults:
+        verdicts.append(verdict(kind, fault, _try(subject, fault, arguments.times)))
+        _say(verdicts[-1].line(), arguments)
+    certificate = certify(_name(subject.settings), verdicts, left_out)
+    print(msgspec.json.encode(certificate).decode() if arguments.json else certificate.summary())
+    return 0 if certificate.kept else 1
+
+
+def _say(line: str, arguments: argparse.Namespace) -> None:
+    if not arguments.json:
+        print(line, flush=True)
+
+
+def _name(settings: Config) -> str:
+    chip = "a simulated chip" if settings.driver == "simulated" else f"the {settings.driver}"
+    return f"{type(settings.drive.mixer).__name__.lower()} vehicle on {chip}"
+
+
+def _subject(arguments: argparse.Namespace) -> Subject:
+    """Return the robot meant, with consent where it is a real one."""
+    file = arguments.config or config.found()
+    settings = config.load(file)
+    where = ("--config", str(file.resolve())) if file else ()
+    if arguments.real:
+        if settings.driver == "simulated":
+            raise ConfigError("--real needs a real chip, and the simulated one is configured; set driver")
+        _ask(settings)
+        return Subject(settings, where)
+    settings = msgspec.structs.replace(settings, driver="simulated")
+    chip = settings.drivers.get("simulated", {}).get("path", "")
+    return Subject(settings, (*where, "--driver", "simulated"), chip=chip)
+
+
+def _ask(settings: Config) -> None:
+    """Turn no real wheel before somebody has typed that it hangs in the air."""
+    print(
+        f"This turns the wheels on the {settings.driver}, again and again, and kills what drives them.\n"
+        f"Lift them off the ground and hold nothing near them. Type {CONSENT!r} to go on: ",
+        end="",
+        file=sys.stderr,
+        flush=True,
+    )
+    if sys.stdin.readline().strip() != CONSENT:
+        raise ConfigError(f"nothing was done: expected the words {CONSENT!r}")
+
+
+def _try(subject: Subject, fault: Fault, times: int) -> list[Outcome]:
+    """Do a fault so many times; a robot that cannot even be started is a broken one."""
+    outcomes = []
+    for number in range(times):
+        if sys.stderr.isatty():
+            print(f"\r{fault.name}: {number + 1} of {times} ", end="\r", file=sys.stderr, flush=True)
+        try:
+            outcomes.append(attempt(subject, fault, number % 10 * LATER))
+        except ZteleopError as error:
+            outcomes.append(Outcome(None, str(error)))
+    return outcomes

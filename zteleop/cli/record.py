@@ -1,0 +1,62 @@
+"""The black box of a robot: `zteleop actuator` starts it once its actuator steps."""
+
+import os
+import signal
+import sys
+from contextlib import suppress
+from pathlib import Path
+
+import msgspec
+
+from zteleop import config
+from zteleop.bus import signals
+from zteleop.bus.node import Node
+from zteleop.bus.tap import Tap
+from zteleop.bus.topics import TOPICS
+from zteleop.config import Config
+from zteleop.nodes.blackbox import BlackBox, Writer
+from zteleop.nodes.ring import Ring
+
+NICE, OOM_SCORE = 10, 500
+LARGEST = 2**18
+"""bytes of a message that is kept"""
+
+
+def run() -> int:
+    """Keep what is said of a robot, with the settings in the first line of stdin, until stdin ends."""
+    _stand_back()
+    ear = sys.stdin.fileno()
+    settings = msgspec.json.decode(_line(ear), type=Config)
+    robot = settings.robot or ""
+    known = _paths(settings)
+    bus = msgspec.structs.replace(settings.bus, largest=LARGEST)
+    with Node("blackbox", robot, bus) as node:
+        for number in signals.ENDING:
+            signal.signal(number, lambda *_: node.stop())
+        writer = Writer(robot, config.state_folder(robot) / "blackbox")
+        BlackBox(node, Tap(node.session, robot, known), Ring(known), writer, ear, node.log.warn).run()
+    return 0
+
+
+def _paths(settings: Config) -> list[str]:
+    """Return every path that somebody at the robot obeys or says."""
+    sources = settings.drive.known_sources
+    return [
+        path
+        for topic in TOPICS.values()
+        for path in ([f"{topic.name}/{source}" for source in sources] if topic.command else [topic.name])
+    ]
+
+
+def _stand_back() -> None:
+    """Let everybody else run first, and be the first to go when memory is short."""
+    with suppress(OSError):
+        os.nice(NICE)
+    with suppress(OSError):
+        Path("/proc/self/oom_score_adj").write_text(str(OOM_SCORE))
+
+
+def _line(file: int) -> bytes:
+    """Return the first line; what follows is left to be read."""
+    with open(file, "rb", buffering=0, closefd=False) as stream:
+        return stream.readline()

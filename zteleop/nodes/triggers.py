@@ -1,0 +1,78 @@
+"""What makes a black box write: the robot at rest for a reason that somebody will ask for."""
+
+from typing import NamedTuple
+
+from zteleop.bus import codec
+from zteleop.bus.tap import Raw
+from zteleop.bus.topics import TOPICS
+from zteleop.errors import MessageError
+from zteleop.messages import DriveStatus, Stop, WatchdogStatus
+
+STATES = {"link lost": "link-lost", "operator idle": "operator-idle", "fault": "fault"}
+"""States of the drive that are a reason, as a file's name says them."""
+STOP, ACTUATOR, WATCHDOG = "stop", "actuator-ended", "watchdog-ended"
+_HEARD = {path: codec.decoders(TOPICS[path].types) for path in ("drive_status", "stop", "watchdog")}
+
+
+class Trigger(NamedTuple):
+    """A reason to write, the moment, and a sentence."""
+
+    at: float
+    reason: str
+    why: str
+
+
+class Triggers:
+    """Finds the edges; what is so from the beginning is none."""
+
+    def __init__(self) -> None:
+        self._status: DriveStatus | None = None
+        self._restarts: int | None = None
+        self._stop = 0
+        """the id of the last stop that was a reason"""
+
+    def hear(self, raw: Raw) -> Trigger | None:
+        """Return the reason that a message is, if it is one."""
+        accepted = _HEARD.get(raw.path)
+        if accepted is None or raw.deleted:
+            return None
+        try:
+            message = codec.decode(raw.payload, raw.encoding, accepted)
+        except MessageError:
+            return None
+        found = self._judge(message)
+        return Trigger(raw.at, *found) if found else None
+
+    def _judge(self, message: object) -> tuple[str, str] | None:
+        if isinstance(message, Stop):
+            return self._hear_stop(message)
+        if isinstance(message, WatchdogStatus):
+            return self._hear_watchdog(message)
+        return self._hear_status(message) if isinstance(message, DriveStatus) else None
+
+    def _hear_stop(self, stop: Stop) -> tuple[str, str] | None:
+        if not stop.engaged or stop.id == self._stop:  # it is repeated until it is acknowledged
+            return None
+        if self._status and self._status.stop == stop.id:
+            return None
+        self._stop = stop.id
+        return STOP, f"stopped by {stop.by or 'somebody'}" + (f": {stop.why}" if stop.why else "")
+
+    def _hear_status(self, status: DriveStatus) -> tuple[str, str] | None:
+        before, self._status = self._status, status
+        if before is None:
+            self._stop = status.stop or self._stop
+            return None
+        stopped = status.state == "stopped" != before.state
+        if status.stop not in (0, before.stop, self._stop) or (stopped and not status.stop):
+            self._stop = status.stop
+            return STOP, status.why
+        if status.state != before.state and status.state in STATES:
+            return STATES[status.state], status.why
+        return None
+
+    def _hear_watchdog(self, dog: WatchdogStatus) -> tuple[str, str] | None:
+        before, self._restarts = self._restarts, dog.restarts + (dog.state == "resting")
+        if before is None or self._restarts <= before:
+            return None
+        return ACTUATOR, dog.why
