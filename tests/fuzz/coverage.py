@@ -34,7 +34,8 @@ def main() -> None:
     except ImportError:
         sys.exit("expected atheris, found none; say: pip install -e '.[fuzz]' (Linux, Python 3.11 to 3.13)")
     with atheris.instrument_imports(include=INSTRUMENTED):
-        from fuzz.targets import CORPUS, TARGETS
+        from fuzz.reading import CORPUS
+        from fuzz.targets import TARGETS
     if options.list:
         print("\n".join(TARGETS))  # noqa: T201
         return

@@ -3,13 +3,11 @@
 from collections.abc import Mapping
 from typing import Any
 
+from fuzz.reading import use
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from zteleop.bus.codec import encode
 from zteleop.config import Config, parse
-from zteleop.control.drive import Drive
-from zteleop.control.report import describe
 from zteleop.errors import ConfigError
 from zteleop.interfaces.schema import schema
 
@@ -86,13 +84,6 @@ def check(text: bytes) -> None:
     except ConfigError:
         return
     use(config)
-
-
-def use(config: Config) -> None:
-    drive = Drive(config.drive, 4.08, epoch=1, now=0.0)
-    assert drive.step(0.02).state == "idle"
-    assert encode(describe(config.drive, 4.08))
-    assert config.driver_settings(config.driver, "archangel") is not None
 
 
 @settings(max_examples=400, deadline=None)

@@ -3,7 +3,8 @@
 from pathlib import Path
 
 import pytest
-from fuzz.targets import TARGETS, corpus
+from fuzz.reading import corpus
+from fuzz.targets import TARGETS
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import msgspec
 import pytest
 import zenoh
-from fuzz.targets import corpus, is_key, parts
+from fuzz.reading import corpus, is_key, parts
 from rig import NEUTRAL, Process, Rig, Watch, hear, until
 
 from zteleop.bus import codec

@@ -1,4 +1,4 @@
-"""How fast may it go? Only so fast that it stops in time should the link die now, and that its supply bears."""
+"""How fast may it go? Only so fast that it stops in time should the link die now, and as its supply bears."""
 
 from collections import deque
 from collections.abc import Mapping

@@ -6,6 +6,7 @@ import os
 import zlib
 from collections.abc import Iterable, Iterator
 from datetime import UTC, datetime
+from math import isfinite
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -85,7 +86,7 @@ def seconds(at: float) -> float:
 
 def line_of(raw: Raw, robot: str) -> Line:
     """Return what is kept of a message: its values when they are JSON, else its bytes."""
-    proof = codec.unpack_proof(raw.attachment)
+    proof = _proof(raw.attachment)
     line = Line(
         at=seconds(raw.at),
         key=raw.path if "*" in raw.path else f"robot/{robot}/{raw.path}",
@@ -101,6 +102,12 @@ def line_of(raw: Raw, robot: str) -> Line:
     except (msgspec.MsgspecError, RecursionError, ValueError, OverflowError):
         line.payload, line.base64 = UNSET, _text(raw.payload)
     return line
+
+
+def _proof(attachment: bytes) -> Proof | None:
+    """Return a proof that can be read back: JSON knows no NaN."""
+    found = codec.unpack_proof(attachment)
+    return found if found and all(map(isfinite, found)) else None
 
 
 def write(folder: Path, header: Header, messages: Iterable[Raw]) -> Path:

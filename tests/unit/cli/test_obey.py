@@ -27,7 +27,9 @@ def made(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> dict[str, Any]:
         yield made["node"]
         made["left"] = True
 
-    def actuator(node: Any, drive: Any, driver: Any, end: Any, stop_file: Any, journal: Any, health: Any) -> Any:
+    def actuator(
+        node: Any, drive: Any, driver: Any, end: Any, stop_file: Any, journal: Any, health: Any
+    ) -> Any:
         made.update(drive=drive, end=end, stop=stop_file.path, journal=journal, health=health)
         return SimpleNamespace(run=lambda: made.update(ran=True))
 

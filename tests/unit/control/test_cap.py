@@ -1,5 +1,6 @@
 from math import isfinite, nan
 
+import msgspec
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -214,7 +215,9 @@ def test_of_link_and_strain_the_slower_counts() -> None:
 
 
 @given(st.lists(st.tuples(st.floats(0, 0.3), st.floats(0, 100)), max_size=50), st.floats(0, 200))
-def test_whatever_was_heard_and_whenever_nothing_is_raised(heard: list[tuple[float, float]], now: float) -> None:
+def test_whatever_was_heard_and_whenever_nothing_is_raised(
+    heard: list[tuple[float, float]], now: float
+) -> None:
     found = cap()
     for age, at in heard:
         found.note("keyboard", 1, age, at)
@@ -224,8 +227,6 @@ def test_whatever_was_heard_and_whenever_nothing_is_raised(heard: list[tuple[flo
 
 @pytest.mark.parametrize("value", [0.0, -1.0, nan, 1e9])
 def test_a_setting_that_means_nothing_is_refused(value: float) -> None:
-    import msgspec
-
     for name in CapSettings.__struct_fields__:
         with pytest.raises(msgspec.ValidationError):
             msgspec.convert({name: value}, CapSettings)

@@ -18,7 +18,9 @@ def shown(board: Dashboard, columns: int = 80, rows: int = 24) -> list[str]:
 def board(car: Vehicle, drive: str = "step", why: str = "obeying keyboard", note: str = "") -> Dashboard:
     pulses = [Pulse("steering", 1, 0.5, 1500.0, 330)]
     rest = Twist.zero()
-    status = DriveStatus("driving", why, "keyboard", "3fa2", rest, rest, pulses, 1, 0.0, 0, 0, 0, 3.0, 0.06, "")
+    status = DriveStatus(
+        "driving", why, "keyboard", "3fa2", rest, rest, pulses, 1, 0.0, 0, 0, 0, 3.0, 0.06, ""
+    )
     return Dashboard(
         "archangel", drive, Speeds(), car, pwm=Pwm(375, 370), status=status, odom=Odometry.zero(), note=note
     )
@@ -152,7 +154,9 @@ def boards(draw) -> Dashboard:
     pulses = [Pulse(draw(st.one_of(st.just("steering"), WORDS)), 0, draw(ANY), 1.0, draw(ticks))]
     twist = Twist.planar(draw(ANY), draw(ANY))
     state = draw(st.sampled_from(["idle", "stopped"]))
-    status = DriveStatus(state, draw(WORDS), draw(WORDS), draw(WORDS), twist, twist, pulses, 0, 0.0, 0, 0, 0, draw(ANY), 0.1, draw(WORDS))
+    words = [draw(WORDS) for _ in range(3)]
+    cap = draw(ANY), draw(ANY), draw(WORDS)
+    status = DriveStatus(state, *words, twist, twist, pulses, 0, 0.0, 0, 0, 0, *cap)
     odom = Odometry.zero()
     odom.pose.pose.position.x, odom.pose.pose.orientation.z = draw(ANY), draw(ANY)
     return Dashboard(

@@ -179,3 +179,10 @@ def test_a_file_that_is_not_there_is_one_sentence(tmp_path: Path) -> None:
         read(tmp_path / "none")
     with pytest.raises(ConfigError, match=r"cannot read .*: Is a directory"):
         read(tmp_path)
+
+
+def test_a_proof_that_no_reader_could_read_back_stays_bytes() -> None:
+    strange = codec.pack_proof(PROOF._replace(beat=float("nan")))
+    kept = line(BEAT._replace(attachment=strange))
+    assert "proof" not in kept
+    assert kept["attachment"]

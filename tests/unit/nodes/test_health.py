@@ -83,7 +83,8 @@ def test_what_comes_and_goes_is_told_once(pi: Pi, health: Health, log: Log) -> N
 
 
 @pytest.mark.parametrize(
-    ("celsius", "strain"), [(79.9, AT_EASE), (80.0, HEAT), (84.9, HEAT), (85.0, GREAT_HEAT), (110, GREAT_HEAT)]
+    ("celsius", "strain"),
+    [(79.9, AT_EASE), (80.0, HEAT), (84.9, HEAT), (85.0, GREAT_HEAT), (110, GREAT_HEAT)],
 )
 def test_heat_slows_down_in_two_steps(pi: Pi, health: Health, celsius: float, strain: object) -> None:
     pi.heat(celsius)

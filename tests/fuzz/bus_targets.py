@@ -1,0 +1,121 @@
+"""What a stranger on the bus may say: each target takes any bytes, and returns unless it found a fault."""
+
+from collections.abc import Callable
+from contextlib import suppress
+from types import SimpleNamespace
+from typing import Any
+
+import zenoh
+from fuzz.reading import ALL, is_key, parts, safe
+
+from zteleop.bus import codec, presence
+from zteleop.bus.escape import printable
+from zteleop.bus.names import chunk, resolve, robot_name
+from zteleop.bus.session import BusSettings, _check_threads, _configure
+from zteleop.cli.echo import render as echo
+from zteleop.control.gate import Deadlines, Gate
+from zteleop.errors import ConfigError, MessageError
+from zteleop.inputs.cells import printable as shown
+from zteleop.messages import Message
+
+EPOCH = 7 << 50
+
+
+def message(data: bytes) -> None:
+    """Read a message, its encoding in the first line, as a node does and as a person who looks at it."""
+    encoding, payload = parts(data)
+    found = None
+    with suppress(MessageError):
+        found = codec.decode(payload, encoding, ALL)
+        assert isinstance(found, Message)
+    assert found is None or codec.decode(codec.encode(found), encoding, ALL) == found
+    for as_json in (False, True):
+        with suppress(MessageError):
+            safe(echo(payload, encoding, as_json))
+
+
+def proof(data: bytes) -> None:
+    """Judge what attachments prove, the length of each before it."""
+    gate, now = Gate(Deadlines(), EPOCH, 100.0), 100.0
+    while data:
+        length, data = data[0], data[1:]
+        attachment, data, now = data[:length], data[length:], now + 0.05
+        found = codec.unpack_proof(attachment)
+        assert (found is None) == (len(attachment) != 48)
+        for moving in (True, False):
+            refusal = gate.judge(found, moving, now)
+            assert refusal or (found and found.epoch == EPOCH and 0 <= now - found.beat <= 0.3)
+            assert refusal or not moving or (found and 100 < found.began <= found.acted <= now)
+
+
+def names(data: bytes) -> None:
+    """Take any text for the name of a robot, of a topic or of a source."""
+    text = data.decode("utf-8", "surrogateescape")
+    for read in (robot_name, lambda name: chunk(name, "a node's name"), *resolvers()):
+        try:
+            found = read(text)
+        except ConfigError as error:
+            safe(printable(str(error)))
+            continue
+        key = getattr(found, "key", None) or f"robot/{found}"
+        assert str(zenoh.KeyExpr(key)) == key
+        assert not {*"*$#?"} & {*key}
+
+
+def resolvers() -> list[Callable[[str], Any]]:
+    return [lambda text: resolve(text, None), lambda text: resolve(text, "archangel")]
+
+
+def token(data: bytes) -> None:
+    """Read keys of liveliness tokens, a line each, as a listing and as an actuator do."""
+    found = data.decode("utf-8", "replace").split("\n")
+    session: Any = Tokens([f"robot/{key}" for key in found if is_key(f"robot/{key}")])
+    departures = presence.Departures(session, "archangel")
+    for name in (*presence.robots(session), *presence.holders(session, "archangel", "actuator")):
+        safe(name)
+    for endpoint in presence.endpoints(session):
+        safe("".join(endpoint))
+    for name in presence.robots(session):
+        assert robot_name(name)
+    for key in session.keys:
+        gone: Any = SimpleNamespace(key_expr=key, kind=zenoh.SampleKind.DELETE)
+        sender = departures.read(gone)
+        assert sender is None or 0 <= sender < 2**64
+
+
+class Tokens:
+    """A session that has heard of these tokens."""
+
+    def __init__(self, keys: list[str]) -> None:
+        self.keys = keys
+
+    def liveliness(self) -> "Tokens":
+        return self
+
+    def declare_subscriber(self, *_: object) -> None:
+        return None
+
+    def get(self, selector: str, timeout: float) -> list[Any]:
+        wanted = zenoh.KeyExpr(selector)
+        return [
+            SimpleNamespace(ok=SimpleNamespace(key_expr=key))
+            for key in self.keys
+            if wanted.intersects(zenoh.KeyExpr(key))
+        ]
+
+
+def endpoint(data: bytes) -> None:
+    """Take any text for an address on the bus, and for zenoh's threads."""
+    text = data.decode("utf-8", "replace")
+    for settings in (BusSettings(connect=[text]), BusSettings(listen=[text])):
+        with suppress(ConfigError):
+            _configure(settings, settle=False)
+    with suppress(ConfigError):
+        _check_threads(text)
+
+
+def screen(data: bytes) -> None:
+    """Show any text on the keyboard's screen."""
+    text = data.decode("utf-8", "replace")
+    safe(shown(text))
+    assert shown(text, unicode=False).isascii()

@@ -1,0 +1,126 @@
+"""What lies on a robot's disk, and what its processes tell each other."""
+
+import json
+import os
+import socket
+from contextlib import suppress
+from mmap import ACCESS_WRITE
+
+from fuzz.reading import ALL, safe, scratch, use
+
+from zteleop import config
+from zteleop.bus import codec
+from zteleop.bus.escape import printable
+from zteleop.bus.names import robot_name
+from zteleop.cli import obey
+from zteleop.drivers.chip import LEDS, Chip
+from zteleop.drivers.chip_file import FILE_SIZE, map_file
+from zteleop.drivers.simulated import SimulatedSettings, open_driver
+from zteleop.errors import ConfigError, DeviceError
+from zteleop.messages import MESSAGES
+from zteleop.nodes.child import Child
+from zteleop.nodes.journal_file import JournalFile, Line
+from zteleop.nodes.link import ActuatorEnd, WatchdogEnd
+from zteleop.nodes.stop_file import StopFile
+
+TIME = codec.encoding_of(MESSAGES["builtin_interfaces/msg/Time"])
+
+
+def config_text(data: bytes) -> None:
+    """Make a robot of a config.toml."""
+    try:
+        settings = config.parse(data)
+    except ConfigError as error:
+        safe(printable(str(error), keep="\n"))
+        return
+    use(settings)
+
+
+def orders(data: bytes) -> None:
+    """Read what a watchdog gives its actuator on standard input."""
+    try:
+        settings = obey.orders(data)
+    except ConfigError:
+        return
+    use(settings)
+
+
+def stop_file(data: bytes) -> None:
+    """Start with a stop file that holds anything: the robot is stopped."""
+    path = scratch() / "stop"
+    path.write_bytes(data)
+    stop = StopFile(path, lambda text: None).load()
+    assert stop is not None
+    assert stop.engaged
+    codec.encode(stop)
+
+
+def link_of_actuator(data: bytes) -> None:
+    """Hear a watchdog out, in pieces of the length that the first byte says."""
+    ours, theirs = socket.socketpair()
+    end, size = ActuatorEnd(theirs), 1 + (data[0] if data else 0)
+    with ours, suppress(DeviceError):
+        for at in range(1, len(data), size):
+            ours.send(data[at : at + size])
+            words = end.read()
+            assert words.stop is None or codec.encode(words.stop)
+        assert len(end._rest) < 2**16 + 3
+    end.close()
+
+
+def link_of_watchdog(data: bytes) -> None:
+    """Hear an actuator out: whatever it reports, its silence is noticed."""
+    ours, theirs = socket.socketpair()
+    end, size = WatchdogEnd(theirs), 1 + (data[0] if data else 0)
+    child = Child(["none"], b"")
+    child.link, child.started = end, 100.0
+    with ours:
+        for at in range(1, len(data), size):
+            ours.send(data[at : at + size])
+            child.hear()
+        assert child.silence(101.0) >= 0
+        assert child.silence(1e300) > 1
+    assert len(end._rest) < 24
+    end.close()
+
+
+def journal(data: bytes) -> None:
+    """Keep a journal in a file that holds anything, of words that say anything."""
+    path, text = scratch() / "journal.jsonl", data.decode("utf-8", "surrogateescape")
+    path.write_bytes(data)
+    file = JournalFile(path)
+    file.put(Line(codec.decode(b'{"sec":0,"nanosec":0}', TIME, ALL), 0.0, "act", {"why": text}))  # type: ignore[arg-type]
+    file.close()
+    assert not file.trouble
+    last = path.read_bytes().splitlines()[-1]
+    assert json.loads(last)["event"] == "act"
+    assert last.decode().isprintable()
+
+
+def chip_file(data: bytes) -> None:
+    """Drive a simulated chip whose file holds anything, now and after somebody has changed it."""
+    path = scratch() / "chip"
+    path.write_bytes(data)
+    with map_file(str(path), ACCESS_WRITE) as memory:
+        chip = Chip(memory)
+        chip.read(0, 1)
+        path.write_bytes(data[::-1])  # cut short first, under the mapping
+        with suppress(OSError):
+            chip.write([(LEDS[0], bytes(4))])
+        assert len(memory[:]) == FILE_SIZE
+    path.write_bytes(data[:-16] + bytes(16) if len(data) == FILE_SIZE else data)  # without faults
+    driver = open_driver(SimulatedSettings(path=str(path)), exclusive=False)
+    with suppress(DeviceError):
+        driver.start({0: 1500.0, 1: 1500.0})
+        assert driver.read([0, 1])[0]
+    driver.close()
+
+
+def robot_file(data: bytes) -> None:
+    """Find anything where this machine keeps its robot's name: a name is read or made."""
+    folder = scratch()
+    os.environ["XDG_STATE_HOME"] = str(folder)
+    file = folder / "zteleop" / "robot"
+    file.parent.mkdir(exist_ok=True)
+    file.write_bytes(data)
+    assert robot_name(config.own_name()) == config.own_name()
