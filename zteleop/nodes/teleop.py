@@ -64,7 +64,7 @@ class Teleop:
         self._stopping = Stopping(node, person())
         self._status: DriveStatus | None = None
         self._status_at = float("-inf")
-        self._at_rest = True
+        self._at_rest = False
         self._looked = clock.now()
         self._odom: Odometry | None = None
         self._note = ""
@@ -148,17 +148,14 @@ class Teleop:
             self._refit(vehicle, now)
 
     def _notice_rest(self, now: float) -> None:
-        """Let go when the robot is kept at rest, and when that ends: the next act begins from neutral.
-
-        One that has not said its state yet is taken for one at rest: it may still be starting.
-        """
+        """Let go when the robot is kept at rest, and when that ends: the next act begins from neutral."""
         status = self._statuses.newest()
         if status:
             self._status, self._status_at = status, now
         elif now - self._status_at > LINK_LOSS:
             self._status = None
         self._stopping.heed(status, now)
-        at_rest = self._status is None or self._status.state in HOLDS
+        at_rest = self._status is not None and self._status.state in HOLDS
         if at_rest != self._at_rest:
             self._at_rest = at_rest
             self._device.reset(now)
