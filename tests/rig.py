@@ -2,7 +2,6 @@
 
 import os
 import pty
-import select
 import signal
 import socket
 import subprocess
@@ -390,66 +389,6 @@ class Rig:
             return bool(heard.beat and heard.vehicle)
 
         until(known, "a beat")
-
-
-class Cable:
-    """A TCP link that can be cut: what is sent through it afterwards goes nowhere, and nobody is told."""
-
-    def __init__(self, port: int) -> None:
-        self._target = port
-        self._listener = socket.create_server(("127.0.0.1", 0))
-        self.port = int(self._listener.getsockname()[1])
-        self._pairs: dict[socket.socket, socket.socket] = {}
-        self._cut = threading.Event()
-        self._ended = threading.Event()
-        self._thread = threading.Thread(target=self._carry, daemon=True)
-        self._thread.start()
-
-    def cut(self) -> None:
-        self._cut.set()
-
-    def mend(self) -> None:
-        self._cut.clear()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *exc: object) -> None:
-        self._ended.set()
-        self._thread.join()
-        for end in [self._listener, *self._pairs]:
-            end.close()
-
-    def _carry(self) -> None:
-        while not self._ended.is_set():
-            ends = [] if self._cut.is_set() else [self._listener, *self._pairs]
-            for end in select.select(ends, [], [], 0.01)[0]:
-                if end is self._listener:
-                    self._accept()
-                else:
-                    self._pass_on(end)
-
-    def _accept(self) -> None:
-        here, _ = self._listener.accept()
-        try:
-            there = socket.create_connection(("127.0.0.1", self._target))
-        except OSError:
-            here.close()
-            return
-        self._pairs |= {here: there, there: here}
-
-    def _pass_on(self, end: socket.socket) -> None:
-        other = self._pairs.get(end)
-        if other is None:
-            return
-        data = b""
-        with suppress(OSError):
-            data = end.recv(65536)
-            other.sendall(data)
-        if not data:
-            for closed in (end, other):
-                self._pairs.pop(closed, None)
-                closed.close()
 
 
 @contextmanager

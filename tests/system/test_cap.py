@@ -1,14 +1,11 @@
 """A link that is late costs speed, between real processes, measured at the chip from outside."""
 
-import socket
-import threading
-import time
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
-from queue import SimpleQueue
+from contextlib import contextmanager
 
 from rig import NEUTRAL, Process, Rig, Watch, hear, until
 
+from zteleop.chaos.cable import Cable
 from zteleop.messages import DriveStatus
 
 FULL = "{linear: {x: 3.0}}"
@@ -19,60 +16,12 @@ LATE = 0.09
 """s each way: a command is then 0.18 s old, and as much older as its beat was when it was made."""
 
 
-def carry(here: socket.socket, there: socket.socket) -> None:
-    """Pass on what one end says, LATE and in order, until it ends."""
-    waiting: SimpleQueue[tuple[float, bytes]] = SimpleQueue()
-
-    def pass_on() -> None:
-        data = b"begin"
-        while data:
-            due, data = waiting.get()
-            time.sleep(max(0.0, due - time.monotonic()))
-            with suppress(OSError):
-                there.sendall(data) if data else there.shutdown(socket.SHUT_WR)
-
-    sender = threading.Thread(target=pass_on)
-    sender.start()
-    data = b"begin"
-    while data:
-        try:
-            data = here.recv(65536)
-        except OSError:
-            data = b""
-        waiting.put((time.monotonic() + LATE, data))
-    sender.join()
-
-
 @contextmanager
 def late_link(port: int) -> Iterator[int]:
-    """Lend a port that leads to another one, late; for one that connects."""
-    listener = socket.create_server(("127.0.0.1", 0))
-    ends: list[socket.socket] = []
-    threads: list[threading.Thread] = []
-
-    def accept() -> None:
-        with suppress(OSError):
-            while True:
-                here, there = listener.accept()[0], socket.create_connection(("127.0.0.1", port))
-                ends.extend((here, there))
-                for way in ((here, there), (there, here)):
-                    threads.append(threading.Thread(target=carry, args=way))
-                    threads[-1].start()
-
-    acceptor = threading.Thread(target=accept)
-    acceptor.start()
-    try:
-        yield int(listener.getsockname()[1])
-    finally:
-        listener.shutdown(socket.SHUT_RDWR)
-        acceptor.join()
-        for end in ends:
-            with suppress(OSError):
-                end.shutdown(socket.SHUT_RDWR)
-        for thread in threads:
-            thread.join()
-        for end in (listener, *ends):
-            end.close()
+    """Lend a port that leads to another one, late."""
+    with Cable(port) as cable:
+        cable.delay = LATE
+        yield cable.port
 
 
 def drive(rig: Rig, port: int | None = None) -> Process:

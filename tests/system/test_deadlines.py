@@ -6,10 +6,11 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 import pytest
-from rig import NEUTRAL, Cable, Process, Rig, every, until
+from rig import NEUTRAL, Process, Rig, every, until
 
 from zteleop.bus import clock
 from zteleop.bus.node import Node
+from zteleop.chaos.cable import Cable
 from zteleop.messages import Pwm
 
 FORWARD = Pwm(390, 400)

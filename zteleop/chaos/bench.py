@@ -116,11 +116,9 @@ class Bench:
         self._stack.callback(node.close)
         return node
 
-    def cable(self) -> Cable:
-        """Return a link to the robot's door that can be cut."""
-        self.link = Cable(self.folder / "cable", self.door)
-        self._stack.callback(self.link.close)
-        return self.link
+    def lay_cable(self, place: Path) -> None:
+        """Lead to the robot's door from another place, by a link that can be cut."""
+        self.link = self._stack.enter_context(Cable(self.door, place))
 
     @property
     def actuator(self) -> int:

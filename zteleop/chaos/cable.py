@@ -1,4 +1,4 @@
-"""A link in the hand: a relay between Unix sockets that can be cut, slowed down and choked."""
+"""A link in the hand: a relay on one machine that can be cut, slowed down and choked."""
 
 import select
 import socket
@@ -13,6 +13,7 @@ PIECE = 65536
 QUEUE = 1 << 20
 """bytes on their way, after which whoever sends must wait"""
 LOOK = 0.005
+HERE = "127.0.0.1"
 
 
 class Way:
@@ -49,20 +50,18 @@ class Way:
 
 
 class Cable:
-    """Relays every connection to `place` to the socket at `target`.
+    """Relays every connection to `place` to whoever listens at `target`; each is a Unix socket or a TCP port.
 
     What is said while it is cut waits until it is mended, as in a network that sends again; nobody is told.
     """
 
-    def __init__(self, place: Path, target: Path) -> None:
+    def __init__(self, target: Path | int, place: Path | int = 0) -> None:
         self.delay = 0.0
         """s, each way"""
         self.rate: float | None = None
         """bytes a second, each way"""
-        self.place, self._target = place, target
-        self._listener = socket.socket(socket.AF_UNIX)
-        self._listener.bind(str(place))
-        self._listener.listen()
+        self._target, self._listener = target, _listen(place)
+        self.port = 0 if isinstance(place, Path) else int(self._listener.getsockname()[1])
         self._ways: list[Way] = []
         self._cut: set[bool] = set()
         self._ended = threading.Event()
@@ -101,11 +100,31 @@ class Cable:
                     way.deliver(now)
 
     def _accept(self) -> None:
-        here, there = self._listener.accept()[0], socket.socket(socket.AF_UNIX)
+        here = self._listener.accept()[0]
         try:
-            there.connect(str(self._target))
+            there = _connect(self._target)
         except OSError:
             here.close()
-            there.close()
             return
         self._ways += [Way(here, there, forth=True), Way(there, here, forth=False)]
+
+
+def _listen(place: Path | int) -> socket.socket:
+    if isinstance(place, int):
+        return socket.create_server((HERE, place))
+    listener = socket.socket(socket.AF_UNIX)
+    listener.bind(str(place))
+    listener.listen()
+    return listener
+
+
+def _connect(target: Path | int) -> socket.socket:
+    if isinstance(target, int):
+        return socket.create_connection((HERE, target))
+    end = socket.socket(socket.AF_UNIX)
+    try:
+        end.connect(str(target))
+    except OSError:
+        end.close()
+        raise
+    return end

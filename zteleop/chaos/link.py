@@ -43,5 +43,5 @@ FAULTS = (
     Fault("link back at once", cut(), 0.45, "drives", operator="far", afterwards=come_back_soon),
     Fault("link slower by 50 ms", slow(0.05), None, "drives", operator="far"),
     Fault("link slower by half a second", slow(0.5), 0.45, operator="far"),
-    Fault("link of 4 kbit/s", choke, 0.9, operator="far"),
+    Fault("link of 4 kbit/s", choke, 0.45, operator="far"),
 )

@@ -49,8 +49,9 @@ def here(bench: Bench, node: Node | None = None) -> Iterator[None]:
 @contextmanager
 def far(bench: Bench) -> Iterator[None]:
     """Command from this process, behind a cable that can be cut."""
-    cable = bench.cable()
-    with here(bench, bench.join(cable.place)):
+    place = bench.folder / "cable"
+    bench.lay_cable(place)
+    with here(bench, bench.join(place)):
         yield
 
 

@@ -5,10 +5,11 @@ import msgspec
 
 from zteleop import chaos, config
 from zteleop.chaos.bench import Subject
-from zteleop.chaos.certificate import HEAD, certify, verdict
+from zteleop.chaos.certificate import HEAD, Verdict, certify, verdict
 from zteleop.chaos.fault import Fault
 from zteleop.chaos.trial import Outcome, attempt
 from zteleop.cli import options
+from zteleop.cli.neutral import bring_to_rest
 from zteleop.config import Config
 from zteleop.errors import ConfigError, ZteleopError
 
@@ -37,14 +38,23 @@ def run(arguments: argparse.Namespace) -> int:
     subject = _subject(arguments)
     left_out = [fault.name for _, fault in faults if fault.simulated and arguments.real]
     faults = [(kind, fault) for kind, fault in faults if fault.name not in left_out]
-    _say(HEAD, arguments)
-    verdicts = []
-    for kind, fault in faults:
-        verdicts.append(verdict(kind, fault, _try(subject, fault, arguments.times)))
-        _say(verdicts[-1].line(), arguments)
+    try:
+        verdicts = _judge(subject, faults, arguments)
+    finally:
+        if arguments.real:
+            bring_to_rest(subject.settings, subject.settings.driver, "")
     certificate = certify(_name(subject.settings), verdicts, left_out)
     print(msgspec.json.encode(certificate).decode() if arguments.json else certificate.summary())
     return 0 if certificate.kept else 1
+
+
+def _judge(subject: Subject, faults: list[tuple[str, Fault]], arguments: argparse.Namespace) -> list[Verdict]:
+    verdicts = []
+    _say(HEAD, arguments)
+    for kind, fault in faults:
+        verdicts.append(verdict(kind, fault, _try(subject, fault, arguments.times)))
+        _say(verdicts[-1].line(), arguments)
+    return verdicts
 
 
 def _say(line: str, arguments: argparse.Namespace) -> None:

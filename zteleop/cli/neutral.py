@@ -3,6 +3,7 @@ import argparse
 from zteleop import config
 from zteleop.bus.names import robot_name
 from zteleop.cli import options
+from zteleop.config import Config
 from zteleop.control.calibration import Calibration
 from zteleop.drivers import DRIVERS, open_driver
 from zteleop.errors import DeviceError
@@ -14,16 +15,22 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--driver", choices=DRIVERS, help="the chip to write to (default: simulated)")
 
 
+def bring_to_rest(settings: Config, name: str, robot: str) -> Calibration:
+    """Write neutral to the chip of that driver, whoever else writes to it; return what neutral is."""
+    hand = open_driver(name, settings.driver_settings(name, robot), exclusive=False)
+    calibration = Calibration(settings.drive.servos, hand.tick_us)
+    hand.start(calibration.neutral_us)
+    hand.close()
+    return calibration
+
+
 def run(arguments: argparse.Namespace) -> None:
     """Write neutral first and ask afterwards: it is never wrong."""
     settings = config.load(arguments.config)
     robot = robot_name(arguments.robot or settings.robot or config.own_name())
     name = arguments.driver or settings.driver
     chip = settings.driver_settings(name, robot)
-    hand = open_driver(name, chip, exclusive=False)
-    calibration = Calibration(settings.drive.servos, hand.tick_us)
-    hand.start(calibration.neutral_us)
-    hand.close()
+    calibration = bring_to_rest(settings, name, robot)
     try:
         open_driver(name, chip).close()
     except DeviceError as error:

@@ -1,4 +1,4 @@
-"""Who drove, when, and what was refused: the black box of a robot, in JSON lines."""
+"""Who drove, when, and what was refused: the log book of a robot, in JSON lines."""
 
 from collections.abc import Callable
 from pathlib import Path
