@@ -205,7 +205,11 @@ class Watchdog:
         """Leave last, after neutral."""
         service.notify("STOPPING=1")
         self._child.ask_to_end()
-        self._child.end(FAREWELL)
+        give_up = clock.now() + FAREWELL
+        while not self._child.gone and clock.now() < give_up:
+            time.sleep(PERIOD)
+            self._rest()  # it may hang in its end, with a chip that did not take its neutral
+        self._child.end(0.0)
         give_up = clock.now() + (GRACE if self._never_stepped else REST_PATIENCE)
         self._rest()
         while not self._at_rest and clock.now() < give_up:

@@ -48,6 +48,8 @@ class Child:
         """It writes motion, whatever anybody says."""
         self.stuck = False
         """It cannot be killed: its write is stuck in the kernel."""
+        self.hangs = False
+        """It does not end when it is asked to."""
         self.beats = True
         """Its beats arrive on the bus."""
         self.code: int | None = None
@@ -78,6 +80,7 @@ class Child:
 
     def ask_to_end(self) -> None:
         self.log.append("ask")
+        self.alive = self.alive and self.hangs
 
     def end(self, patience: float) -> int | None:
         self.log.append(f"end {patience:g}")
@@ -468,7 +471,7 @@ def test_a_signal_ends_it_after_the_actuator_with_neutral_as_the_last_word(
 
     kennel.node.spin = spin
     assert kennel.dog.run() == 128 + number
-    assert kennel.child.log == ["ask", f"end {FAREWELL:g}"]
+    assert kennel.child.log == ["ask", "end 0"]
     assert kennel.hand.log == ["start", "read", "close"]
     assert kennel.hand.pulses == NEUTRAL
     assert (kennel.enabled[-1], told[-1]) == (False, "STOPPING=1")
@@ -496,7 +499,20 @@ def test_whatever_goes_wrong_neutral_is_left_behind(kennel: Kennel) -> None:
     with pytest.raises(ZeroDivisionError):
         kennel.dog.run()
     assert kennel.hand.pulses == NEUTRAL
-    assert kennel.child.log[-1] == f"end {FAREWELL:g}"
+    assert kennel.child.log[-1] == "end 0"
+
+
+def test_while_an_actuator_hangs_in_its_end_neutral_is_written_again_and_again(kennel: Kennel) -> None:
+    def spin() -> None:
+        kennel.live(0.5)
+        kennel.child.hangs = True
+        kennel.hand.log.clear()
+
+    kennel.node.spin = spin
+    began = kennel.clock.time
+    kennel.dog.run()
+    assert kennel.clock.time - began == pytest.approx(0.5 + FAREWELL, abs=2 * PERIOD)
+    assert kennel.hand.log.count("start") > FAREWELL / PERIOD
 
 
 def test_a_chip_that_was_never_there_is_not_waited_for_long(kennel: Kennel) -> None:
