@@ -6,18 +6,22 @@ import socket
 from contextlib import suppress
 from mmap import ACCESS_WRITE
 
-from fuzz.reading import ALL, safe, scratch, use
+import msgspec
+from fuzz.reading import ALL, parts, safe, scratch, use
 
 from zteleop import config
 from zteleop.bus import codec
 from zteleop.bus.escape import printable
 from zteleop.bus.names import robot_name
+from zteleop.bus.tap import Raw
 from zteleop.cli import obey
+from zteleop.cli.blackbox import _show
 from zteleop.drivers.chip import LEDS, Chip
 from zteleop.drivers.chip_file import FILE_SIZE, map_file
 from zteleop.drivers.simulated import SimulatedSettings, open_driver
 from zteleop.errors import ConfigError, DeviceError
 from zteleop.messages import MESSAGES
+from zteleop.nodes import blackbox_file
 from zteleop.nodes.child import Child
 from zteleop.nodes.journal_file import JournalFile, Line
 from zteleop.nodes.link import ActuatorEnd, WatchdogEnd
@@ -95,6 +99,28 @@ def journal(data: bytes) -> None:
     last = path.read_bytes().splitlines()[-1]
     assert json.loads(last)["event"] == "act"
     assert last.decode().isprintable()
+
+
+def kept(data: bytes) -> None:
+    """Keep a message in a black box: whatever it says is one line."""
+    encoding, payload = parts(data)
+    for path in ("stop", "pwm/keyboard", "lidar"):
+        line = blackbox_file.line_of(Raw(1.0, path, encoding, payload, payload[-48:], False), "archangel")
+        assert b"\n" not in msgspec.json.encode(line)
+
+
+def blackbox(data: bytes) -> None:
+    """Show a black box whose file holds anything."""
+    path = scratch() / "blackbox"
+    path.write_bytes(data)
+    try:
+        recording = blackbox_file.read(path)
+    except ConfigError as error:
+        safe(printable(str(error)))
+        return
+    for every, as_json in ((False, False), (True, False), (False, True)):
+        for line in _show(recording, every, as_json):
+            safe(printable(line))
 
 
 def chip_file(data: bytes) -> None:

@@ -11,10 +11,12 @@ from fuzz import robot_targets as robot
 
 TARGETS: dict[str, Callable[[bytes], None]] = {
     "arguments": operator.arguments,
+    "blackbox": robot.blackbox,
     "chip": robot.chip_file,
     "config": robot.config_text,
     "endpoint": bus.endpoint,
     "journal": robot.journal,
+    "kept": robot.kept,
     "keyboard": operator.keyboard,
     "keymap": operator.keymap,
     "keys": operator.keys,

@@ -51,7 +51,8 @@ class Tap:
             for _ in range(DEPTH):  # a flood must not keep the others waiting for ever
                 if (sample := inbox.try_recv()) is None:
                     break
-                yield _raw(sample, str(sample.key_expr).removeprefix(self._prefix), now)
+                key = str(sample.key_expr)
+                yield _raw(sample, key if "*" in key else key.removeprefix(self._prefix), now)
 
     def _hear(self, path: str) -> None:
         key = self._prefix + path

@@ -14,6 +14,7 @@ from zteleop.bus.session import BusSettings
 from zteleop.chaos.cable import Cable
 from zteleop.chaos.eye import Eye, open_eye
 from zteleop.chaos.process import ZTELEOP, Process, actuator_of
+from zteleop.chaos.terminal import Terminal
 from zteleop.config import Config
 from zteleop.drivers.faults import Faults
 from zteleop.errors import BusError
@@ -51,10 +52,8 @@ class Bench:
         self.command = Twist.planar(limits.speed_of(mixer) / 4, limits.turn_of(mixer) / 8)
         self.operator: Process | None = None
         """whoever drives, where it is a process of its own"""
-        self.keys = -1
-        """what types into the operator's terminal, where it has one"""
-        self.hands_off = False
-        """the keys are left alone"""
+        self.terminal: Terminal | None = None
+        """the operator's, where it has one"""
         self.others: list[Node] = []
         """more people on the bus"""
         self.notes: list[str] = []

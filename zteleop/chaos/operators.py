@@ -1,23 +1,19 @@
 """Who drives the robot on a bench, and goes on whatever happens to it."""
 
 import os
-import pty
 import sys
 import threading
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 
 from zteleop.bus.node import Node
 from zteleop.chaos.bench import Bench, endpoint
 from zteleop.chaos.process import ZTELEOP
+from zteleop.chaos.terminal import Terminal
 from zteleop.messages import Twist
 
 PERIOD = 0.02
-PRESS = 0.7
-"""s between key presses: any faster, and they are those of a key that is held."""
-LEFT = b"a"
-"""The key that turns to the left."""
 IN_TERMINAL = """
 import fcntl, os, sys, termios
 fcntl.ioctl(0, termios.TIOCSCTTY, 0)
@@ -68,44 +64,18 @@ def program(bench: Bench) -> Iterator[None]:
 @contextmanager
 def keyboard(bench: Bench) -> Iterator[None]:
     """Drive with the keys of a terminal, which is pressed until the robot moves."""
-    master, slave = pty.openpty()
-    ended = threading.Event()
+    bench.terminal = terminal = Terminal()
     command = [sys.executable, "-c", IN_TERMINAL, "-m", "zteleop", "keyboard", "--drive", "step"]
-    bench.operator = process = bench.run("operator", [*command, *_where(bench)], slave)
-    bench.keys = master
-    os.close(slave)
-    threads = [
-        threading.Thread(target=work, args=(bench, master, ended), daemon=True) for work in (_show, _press)
-    ]
-    for thread in threads:
-        thread.start()
+    bench.operator = process = bench.run("operator", [*command, *_where(bench)], terminal.device)
+    os.close(terminal.device)
     try:
         yield
     finally:
-        ended.set()
         process.end()
-        for thread in threads:
-            thread.join()
-        with suppress(OSError):
-            os.close(master)
+        terminal.close()
 
 
 OPERATORS = {"here": here, "far": far, "program": program, "keyboard": keyboard}
-
-
-def _show(bench: Bench, master: int, ended: threading.Event) -> None:
-    """Take what the terminal would show."""
-    with suppress(OSError):  # the other end is closed
-        while os.read(master, 65536):
-            pass
-
-
-def _press(bench: Bench, master: int, ended: threading.Event) -> None:
-    """Press a key again and again, as somebody who does not give up."""
-    with suppress(OSError):
-        while not ended.wait(PRESS):
-            if not bench.hands_off:
-                os.write(master, LEFT)
 
 
 def _where(bench: Bench) -> list[str]:

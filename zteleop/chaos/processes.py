@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from zteleop.chaos.bench import Bench
 from zteleop.chaos.fault import Act, Fault
-from zteleop.chaos.operators import LEFT
+from zteleop.chaos.terminal import LEFT
 
 STILL = 3.0
 """s that frozen processes stand still"""
@@ -59,7 +59,8 @@ def order(words: str, whom: Callable[[int], Act]) -> Act:
 
 
 def freeze_keyboard(bench: Bench) -> None:
-    bench.hands_off = True
+    if bench.terminal:
+        bench.terminal.hands_off = True
     operator(signal.SIGSTOP)(bench)
 
 
@@ -68,7 +69,8 @@ def thaw_keyboard(seconds: float) -> Act:
 
     def afterwards(bench: Bench) -> None:
         time.sleep(seconds)
-        os.write(bench.keys, 5 * LEFT)
+        if bench.terminal:
+            bench.terminal.type(5 * LEFT)
         operator(signal.SIGCONT)(bench)
 
     return afterwards
@@ -76,7 +78,8 @@ def thaw_keyboard(seconds: float) -> Act:
 
 def hang_up(bench: Bench) -> None:
     """Close the operator's terminal, as when its window is closed."""
-    os.close(bench.keys)
+    if bench.terminal:
+        bench.terminal.close()
 
 
 FAULTS = (

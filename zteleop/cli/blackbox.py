@@ -1,6 +1,7 @@
 import argparse
 import sys
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -25,7 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> None:
     what, robot = arguments.what, arguments.robot
-    if what and not robot and not Path(what).exists() and not _looks_like_a_path(what):
+    if what and not robot and not Path(what).is_file() and not _looks_like_a_path(what):
         what, robot = None, what
     if arguments.list:
         for line in _listing(robot):
@@ -67,8 +68,10 @@ def _newest(robot: str | None) -> Path:
 def _listing(robot: str | None) -> Iterator[str]:
     _newest(robot)
     for path in _files(robot):
-        size, owner = path.stat().st_size, path.parent.parent.name
-        yield f"{_when(path)}  {blackbox_file.reason_of(path):14}  {owner}  {size / 1000:.1f} kB  {path}"
+        owner = path.parent.parent.name
+        with suppress(FileNotFoundError):  # a newer one has taken its place meanwhile
+            size = f"{path.stat().st_size / 1000:.1f} kB"
+            yield f"{_when(path)}  {blackbox_file.reason_of(path):14}  {owner}  {size}  {path}"
 
 
 def _when(path: Path) -> str:

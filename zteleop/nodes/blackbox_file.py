@@ -3,6 +3,7 @@
 import base64
 import gzip
 import os
+import time
 import zlib
 from collections.abc import Iterable, Iterator
 from datetime import UTC, datetime
@@ -26,6 +27,8 @@ KEPT = 5
 LEVEL = 3
 """of gzip: a third of the time of its own choice, for a tenth more of bytes"""
 FORMAT = 1
+ABANDONED = 600
+"""s after which nobody writes half a file any more"""
 LARGEST = 256 * 2**20
 """bytes that are read of a file, unpacked"""
 _CHUNK = 2**20
@@ -98,7 +101,7 @@ def line_of(raw: Raw, robot: str) -> Line:
     )
     try:
         line.payload = msgspec.json.decode(raw.payload)
-        msgspec.json.encode(line.payload)
+        msgspec.json.encode(line)  # what was read need not be writable one level deeper
     except (msgspec.MsgspecError, RecursionError, ValueError, OverflowError):
         line.payload, line.base64 = UNSET, _text(raw.payload)
     return line
@@ -115,6 +118,7 @@ def write(folder: Path, header: Header, messages: Iterable[Raw]) -> Path:
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / f"{_stamp(header.time)}-{header.reason}{SUFFIX}"
     new = folder / f".{path.name}.{os.getpid()}"
+    _remove(_halves(folder))
     try:
         with new.open("wb") as file:
             with gzip.GzipFile("", "wb", LEVEL, file, mtime=0) as packed:
@@ -124,9 +128,8 @@ def write(folder: Path, header: Header, messages: Iterable[Raw]) -> Path:
             file.flush()
             os.fsync(file.fileno())
         new.replace(path)
-    except OSError:
+    finally:
         _remove([new])
-        raise
     _remove(_superfluous(folder, header.reason, path))
     return path
 
@@ -211,6 +214,12 @@ def _superfluous(folder: Path, reason: str, newest: Path) -> Iterator[Path]:
     yield from others[: max(0, len(others) - KEPT + 1)]
 
 
+def _halves(folder: Path) -> Iterator[Path]:
+    """Yield what was being written when the power went: it counts as none, and would stay for ever."""
+    newest = time.time_ns() - ABANDONED * 10**9
+    yield from (path for path in folder.glob(f".*{SUFFIX}.*") if _age(path) < newest)
+
+
 def _remove(paths: Iterable[Path]) -> None:
     for path in paths:
         try:
@@ -226,8 +235,8 @@ def _age(path: Path) -> int:
         return 0
 
 
-def _stamp(time: str) -> str:
-    return time.replace("-", "").replace(":", "").replace(" ", "T")
+def _stamp(utc: str) -> str:
+    return utc.replace("-", "").replace(":", "").replace(" ", "T")
 
 
 def utc(seconds_since_1970: float) -> str:

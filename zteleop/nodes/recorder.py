@@ -9,7 +9,8 @@ FAREWELL = b"end\n"
 """The watchdog's last word; without it, it did not end but broke down."""
 DELAY = 1.0
 """s after the actuator's first step; it drives first"""
-STARTS = 5
+STARTS, STEADY = 5, 600.0
+"""How often it is started in a row, and the s after which an end is not in a row with the one before."""
 PATIENCE = 1.0
 """s for it to write what is due when the robot ends"""
 
@@ -21,16 +22,16 @@ class Recorder:
         self._command, self._settings, self._warn = command, settings, warn
         self._process: subprocess.Popen[bytes] | None = None
         self._due: float | None = None
-        self._starts = 0
+        self._starts, self._started = 0, float("-inf")
 
     def tend(self, now: float) -> None:
         """Start it when it is time, and again a few times when it has ended; `now` in seconds."""
         if self._process and self._process.poll() is None:
             return
         if self._due is None:
-            self._due = now + DELAY * 2**self._starts
-        elif now >= self._due and self._starts < STARTS:
-            self._due = None
+            self._due = self._plan(now)
+        elif now >= self._due:
+            self._due, self._started = None, now
             self._start()
 
     def end(self) -> None:
@@ -41,6 +42,15 @@ class Recorder:
             ear.write(FAREWELL)
         with suppress(subprocess.TimeoutExpired):
             self._process.wait(PATIENCE)
+
+    def _plan(self, now: float) -> float:
+        """Return when it starts: later each time, and never once it has ended too often."""
+        if now - self._started > STEADY:
+            self._starts = 0
+        if self._starts == STARTS:
+            self._warn(f"the black box has ended {STARTS} times in a row, and is not started again")
+            return float("inf")
+        return now + DELAY * 2.0**self._starts
 
     def _start(self) -> None:
         self._starts += 1

@@ -29,7 +29,7 @@ class Snapshot(NamedTuple):
     floods: dict[str, list[tuple[int, int]]]
     """per topic: a second of the bus clock, and how many messages it had at least"""
     elsewhere: int
-    """messages on topics for which there was no room"""
+    """messages on topics for which there was no room, since the snapshot before"""
 
 
 class Lane:
@@ -125,13 +125,14 @@ class Ring:
         lanes = self._known.lanes | self._others.lanes
         in_order = sorted(lanes, key=lambda path: self._known_paths.get(path, TOPICS))
         messages = sorted((raw for path in in_order for raw in lanes[path].kept), key=lambda raw: raw.at)
+        first = self._newest - SECONDS
         floods = {
-            path: [(second, count) for second, count in lane.rates if count >= FLOOD]
+            path: [(second, count) for second, count in lane.rates if count >= FLOOD and second >= first]
             for path, lane in lanes.items()
         }
-        return Snapshot(
-            messages, len(lanes), {path: found for path, found in floods.items() if found}, self._elsewhere
-        )
+        elsewhere, self._elsewhere = self._elsewhere, 0
+        told = {path: found for path, found in floods.items() if found}
+        return Snapshot(messages, len(lanes), told, elsewhere)
 
     def _fits(self, raw: Raw) -> bool:
         return len(self._others.lanes) < self._room and len(raw.path) <= LONGEST_PATH

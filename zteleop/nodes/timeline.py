@@ -199,5 +199,5 @@ def _mark(header: Header, events: list[Event]) -> list[Event]:
         if found is None:
             found = Event(trigger.at, f"{trigger.reason.replace('-', ' ')}: {trigger.why}")
             events.append(found)
-        found.reason = number == 0
+        found.reason = found.reason or number == 0
     return sorted(events, key=lambda event: event.at)

@@ -1,6 +1,6 @@
 """A cable that can be disturbed: carries frames between TAP devices in two network namespaces.
 
-python -m faults.link NAMESPACE NAMESPACE [--seed N]
+python -m faults.link.emulator NAMESPACE NAMESPACE [--seed N]
 
 It says `ready` once both devices stand. Each line of its standard input is an order in JSON, such as
 {"forth": {"delay": 0.1}, "back": {"dead": true}}, which it answers with `set`; the end of its input ends it.

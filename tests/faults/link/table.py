@@ -33,7 +33,7 @@ def report(fault: LinkFault, times: int) -> bool:
     outcomes = [once(fault, number) for number in range(times)]
     seconds = [outcome.seconds for outcome in outcomes if outcome.seconds is not None]
     late = fault.bound is not None and max(seconds, default=0.0) > fault.bound
-    broken = next((outcome.broken for outcome in outcomes if outcome.broken), "")
+    broken = next((outcome.broken for outcome in outcomes if outcome.broken), "too late" if late else "")
     median = statistics.median(seconds) if seconds else None
     figures = (median, max(seconds, default=None), fault.bound, max(x.oldest for x in outcomes))
     stale = sum(outcome.stale for outcome in outcomes)
@@ -41,10 +41,10 @@ def report(fault: LinkFault, times: int) -> bool:
     again = sum(outcome.ended == "drives" for outcome in outcomes)
     print(
         f"{fault.name:32} {times:5} {' '.join(_ms(figure) for figure in figures)}",
-        f"{stale:9} {100 * share:7.0f} % {again:9}  {'BROKEN ' + broken if late or broken else 'kept'}",
+        f"{stale:9} {100 * share:7.0f} % {again:9}  {'BROKEN ' + broken if broken else 'kept'}",
         flush=True,
     )
-    return not (late or broken)
+    return not broken
 
 
 def once(fault: LinkFault, number: int) -> Outcome:

@@ -47,10 +47,10 @@ def judge(bench: Bench, fault: LinkFault) -> Outcome:
     """Do a fault and say what followed."""
     struck = time.monotonic()
     fault.strike(bench)
-    seconds = None if fault.bound is None else until(lambda: bench.at_rest, f"neutral: {fault.name}")
+    if fault.bound is not None:
+        until(lambda: bench.at_rest, f"neutral: {fault.name}")
     rested = time.monotonic()
-    if seconds is not None:
-        seconds = rested - struck
+    seconds = None if fault.bound is None else rested - struck
     time.sleep(max(0.0, struck + fault.lasts - time.monotonic()))
     undone = time.monotonic()
     fault.undo(bench)

@@ -66,8 +66,9 @@ def test_announcements_without_end_are_not_all_heard(bench: Bench) -> None:
 
 
 def test_a_wildcard_is_taken_under_its_whole_key(bench: Bench) -> None:
-    bench.say("stop", Sample(b"", key="robot/*/stop"))
-    assert bench.paths() == ["robot/*/stop"]
+    keys = ["robot/*/stop", f"{PREFIX}*", f"{PREFIX}**"]
+    bench.say("stop", *(Sample(b"", key=key) for key in keys))
+    assert bench.paths() == keys
 
 
 def test_a_flood_leaves_the_others_their_turn(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:

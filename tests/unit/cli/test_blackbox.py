@@ -86,6 +86,12 @@ def test_a_file_from_elsewhere_is_shown(home: Path, capsys: pytest.CaptureFixtur
     assert show(capsys, str(home / "copied"))[-1].endswith("\\u000ax")
 
 
+def test_a_folder_named_like_a_robot_is_not_meant(home: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    keep(home, "anna", 0)
+    (home / "anna").mkdir(exist_ok=True)
+    assert show(capsys, "anna")[0].startswith("black box of anna")
+
+
 def test_every_message_can_be_a_line(home: Path, capsys: pytest.CaptureFixture[str]) -> None:
     keep(home)
     lines = show(capsys, "--all")

@@ -112,6 +112,16 @@ def test_a_disk_that_is_full_leaves_nothing_behind(tmp_path: Path, monkeypatch: 
     assert os.listdir(tmp_path) == []
 
 
+def test_what_was_being_written_when_the_power_went_is_removed(tmp_path: Path) -> None:
+    path = write(tmp_path, header(), [])
+    old, young = (tmp_path / f".{path.name}.{number}" for number in (7, 8))
+    for half in (old, young):
+        half.write_bytes(b"half")
+    os.utime(old, (0, 0))
+    write(tmp_path, header(), [])
+    assert {found.name for found in tmp_path.iterdir()} == {path.name, young.name}
+
+
 def test_a_folder_that_is_a_file_is_an_error(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(OSError, match="exists"):

@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from zteleop.nodes import recorder as module
-from zteleop.nodes.recorder import DELAY, FAREWELL, PATIENCE, STARTS, Recorder
+from zteleop.nodes.recorder import DELAY, FAREWELL, PATIENCE, STARTS, STEADY, Recorder
 
 
 class Ear:
@@ -85,7 +85,7 @@ def test_it_starts_after_the_robot_has_begun(recorder: Recorder, started: list[P
 
 
 def test_one_that_ends_is_started_again_later_and_later_and_a_few_times_only(
-    recorder: Recorder, started: list[Process]
+    recorder: Recorder, started: list[Process], warnings: list[str]
 ) -> None:
     starts, now = [], 0.0
     while now < 1000.0:
@@ -99,6 +99,19 @@ def test_one_that_ends_is_started_again_later_and_later_and_a_few_times_only(
     pauses = [late - soon for soon, late in pairwise(starts)]
     assert pauses == sorted(pauses)
     assert all(process.stdin.closed for process in started[:-1])
+    assert warnings == [f"the black box has ended {STARTS} times in a row, and is not started again"]
+
+
+def test_one_that_ends_now_and_then_is_started_each_time(
+    recorder: Recorder, started: list[Process], warnings: list[str]
+) -> None:
+    for number in range(2 * STARTS):
+        now = number * 2 * STEADY
+        recorder.tend(now)
+        recorder.tend(now + DELAY)
+        assert len(started) == number + 1
+        started[-1].returncode = 1
+    assert not warnings
 
 
 def test_what_cannot_be_started_is_said_and_ends_nothing(

@@ -102,6 +102,7 @@ def test_more_topics_than_there_is_room_for_are_counted() -> None:
     held = ring.take()
     assert held.topics == TOPICS - len(KNOWN) + 1
     assert held.elsewhere == 10 + len(KNOWN)
+    assert ring.take().elsewhere == 0, "the next file tells of what followed"
 
 
 def test_a_topic_with_an_endless_name_is_none() -> None:
@@ -116,6 +117,15 @@ def test_a_flood_is_counted_by_the_second() -> None:
         ring.add(raw(5 + number / (2 * FLOOD), "junk"))
     ring.add(raw(7.0))
     assert ring.take().floods == {"junk": [(5, 2 * FLOOD), (6, FLOOD)]}
+
+
+def test_a_flood_of_long_ago_is_not_told_of_a_topic_that_goes_on() -> None:
+    ring = Ring(KNOWN)
+    for _ in range(FLOOD):
+        ring.add(raw(5.0, "junk"))
+    for tenth in range(1, 15):
+        ring.add(raw(5.0 + tenth * SECONDS / 10, "junk"))
+    assert ring.take().floods == {}
 
 
 messages = st.tuples(

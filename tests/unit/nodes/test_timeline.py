@@ -169,6 +169,12 @@ def test_only_the_first_reason_is_the_one_it_was_written_for() -> None:
     assert [(event.text, event.reason) for event in events] == [("fault: a", True), ("link lost: b", False)]
 
 
+def test_two_reasons_that_are_one_event_are_what_it_was_written_for() -> None:
+    stop = line(0.0, "stop", {"engaged": True, "id": 7, "by": "ann", "why": ""})
+    events = timeline(header(("stop", "stopped by ann"), ("stop", "stopped by bert")), [stop])
+    assert [(event.text, event.reason) for event in events] == [("ann says stop", True)]
+
+
 def test_a_watchdog_is_told_when_it_changes() -> None:
     def dog(at: float, state: str, restarts: int, why: str) -> Line:
         return line(at, "watchdog", {"state": state, "restarts": restarts, "why": why})
