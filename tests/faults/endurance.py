@@ -43,6 +43,8 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--minutes", type=float, default=30.0)
     minutes = parser.parse_args().minutes
+    if minutes < 4:
+        parser.error("at least 4 minutes are meant, for two looks at the memory")
     with Bench(Subject(Config(), ("--driver", "simulated"))) as bench, here(bench):
         bench.until(lambda: not bench.eye.at_rest, 10.0)
         time.sleep(5.0)  # until the black box is there as well

@@ -125,6 +125,7 @@ class Stage:
         self._until(lambda: not bench.eye.at_rest, "it drives")
 
     def strike(self) -> None:
+        self.bench.order.write_text("hang" if "end" in self.trial.failure else "raise MainThread")
         with ExitStack() as stack:
             if self.trial.state in ("fault", "writing"):
                 faults = stack.enter_context(self.bench.faults())
@@ -146,9 +147,7 @@ class Stage:
             elif failure in SIGNALS:
                 os.kill(pid, SIGNALS[failure])
             else:
-                self.bench.order.write_text("hang" if "end" in failure else "raise MainThread")
                 os.kill(pid, signal.SIGUSR1)
-                time.sleep(0.001)  # the order is read before the next is written
                 if "end" in failure:
                     os.kill(pid, signal.SIGTERM)
 

@@ -9,13 +9,15 @@ from pathlib import Path
 
 import preload
 import pytest
-from rig import NEUTRAL, ZTELEOP, Rig, repeating, until
+from rig import NEUTRAL, ZTELEOP, Rig, every, repeating, until
 
 from zteleop import chaos
 from zteleop.chaos.bench import Subject
 from zteleop.chaos.fault import Fault
 from zteleop.chaos.trial import attempt
 from zteleop.config import Config
+from zteleop.drivers.registers import read_duty_ticks
+from zteleop.drivers.simulated import open_registers
 from zteleop.messages import Pwm
 
 FORWARD = Pwm(390, 400)
@@ -59,7 +61,41 @@ def test_the_real_driver_keeps_the_same_bounds_and_waits_for_consent(tmp_path: P
     done = chaos_on_wheels("wheels up\n")
     verdicts = json.loads(done.stdout.splitlines()[-1])["verdicts"]
     assert {verdict["fault"] for verdict in verdicts} >= {"actuator killed", "operator and actuator killed"}
-    assert all(verdict["broken"] == [] or verdict["worst"] <= 0.05 + BUSY for verdict in verdicts)
+    assert all(words.startswith("it took") for verdict in verdicts for words in verdict["broken"])
+    assert all(verdict["worst"] <= 0.05 + BUSY for verdict in verdicts)
+
+
+def running(words: str) -> list[int]:
+    """Return the processes whose command holds some words."""
+    found = []
+    for path in Path("/proc").glob("[0-9]*/cmdline"):
+        with suppress(OSError):  # it ends just now
+            if words.encode() in path.read_bytes():
+                found.append(int(path.parent.name))
+    return found
+
+
+def test_chaos_that_is_killed_itself_leaves_no_wheel_turning(tmp_path: Path) -> None:
+    environment = os.environ | {"TMPDIR": str(tmp_path)}
+    command = [*ZTELEOP, "chaos", "--times", "50", "--only", "operator frozen"]
+    killed = subprocess.Popen(command, env=environment, cwd=tmp_path, stdout=subprocess.DEVNULL)
+    try:
+        until(lambda: list(tmp_path.glob("*/zteleop/*.pca9685")), "a chip")
+        chip = open_registers(str(next(tmp_path.glob("*/zteleop/*.pca9685"))))
+
+        def rests() -> bool:
+            return read_duty_ticks(chip.snapshot(), 1) in (None, NEUTRAL[0])
+
+        until(lambda: not rests(), "the wheels turn")
+        killed.kill()
+        assert until(rests, "the wheels are at rest") <= 0.5
+        for _ in every(0.005, 100):
+            assert rests()
+        chip.close()
+        until(lambda: not running(str(tmp_path)), "nobody is left")
+    finally:
+        killed.kill()
+        killed.wait()
 
 
 def test_a_log_that_nobody_reads_holds_up_nobody(tmp_path: Path) -> None:

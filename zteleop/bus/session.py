@@ -62,10 +62,7 @@ def open_session(settings: BusSettings, *, settle: bool = False, door: bool = Fa
     while True:
         try:
             session = _open(config, door or settings.mode == "router")
-            linger.forbid(session)
-            if settle:
-                _settle(session)
-            return session
+            return _settled(session, settle)
         except zenoh.ZError as error:
             if settings.mode != "client" or time.monotonic() > give_up:
                 raise BusError(_words(settings, error)) from error
@@ -91,10 +88,13 @@ def _check_threads(text: str) -> None:
         raise ConfigError(f"{_RUNTIME} is such as {_APART}, found {text!r}; correct it, or unset it")
 
 
-def _settle(session: zenoh.Session) -> None:
-    """Wait until no further peer has been found for a while: each tells of the ones it knows."""
+def _settled(session: zenoh.Session, settle: bool) -> zenoh.Session:
+    """Return a session whose links do not linger; with `settle`, once no further peer is found."""
     try:
-        _await_quiet(session)
+        linger.forbid(session)
+        if settle:
+            _await_quiet(session)
+        return session
     except BaseException:
         session.close()  # type: ignore[no-untyped-call]
         raise

@@ -2,6 +2,7 @@
 
 import os
 import secrets
+import shutil
 import tempfile
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -70,9 +71,7 @@ class Bench:
 
     def __exit__(self, *_: object) -> None:
         self._stack.close()
-        for place in sorted(self.folder.rglob("*"), reverse=True):
-            place.rmdir() if place.is_dir() and not place.is_symlink() else place.unlink()
-        self.folder.rmdir()
+        shutil.rmtree(self.folder, ignore_errors=True)  # a black box may still be writing
 
     def _surroundings(self) -> dict[str, str]:
         path = filter(None, (str(SABOTAGE), os.environ.get("PYTHONPATH")))
@@ -87,7 +86,8 @@ class Bench:
         self.eye: Eye = open_eye(self.settings, self.robot, self.chip)
         self._stack.callback(self.eye.close)
         where = ("--robot", self.robot, "--no-multicast-scouting", "--listen", endpoint(self.door))
-        self.watchdog = self.run("actuator", [*ZTELEOP, "actuator", *where, *self.subject.options])
+        command = [*ZTELEOP, "actuator", "--with-parent", *where, *self.subject.options]
+        self.watchdog = self.run("actuator", command, leashed=True)
         self.await_robot()
         self.node = self.join()
         self.statuses = self.node.subscription("drive_status", DriveStatus)
@@ -101,9 +101,12 @@ class Bench:
                 raise BusError(f"the robot did not start: {self.watchdog.words}")
             time.sleep(LOOK)
 
-    def run(self, name: str, command: Sequence[str], terminal: int | None = None) -> Process:
+    def run(
+        self, name: str, command: Sequence[str], terminal: int | None = None, *, leashed: bool = False
+    ) -> Process:
         """Start a process that ends with the bench."""
-        process = Process(name, command, self.environment, self.folder, terminal)
+        bench = {} if leashed else {"ZTELEOP_CHAOS_BENCH": str(os.getpid())}
+        process = Process(name, command, self.environment | bench, self.folder, terminal, leashed=leashed)
         self._stack.callback(process.end)
         return process
 

@@ -78,6 +78,9 @@ class Cable:
 
     def close(self) -> None:
         self._ended.set()
+        for way in self._ways:
+            with suppress(OSError):  # whoever waits to say more to somebody frozen waits no longer
+                way.source.shutdown(socket.SHUT_RDWR)
         self._thread.join()
         for end in (self._listener, *(way.source for way in self._ways)):
             end.close()

@@ -4,6 +4,7 @@
 """
 
 import json
+import os
 import sys
 import time
 from itertools import cycle
@@ -25,6 +26,7 @@ def main(endpoint: str, robot: str, rate: str, size: str, *topics: str) -> None:
     payload = json.dumps(TWIST).encode().ljust(int(size))
     with Node("flood", robot, bus) as node:
         keys = cycle(f"robot/{robot}/{topic}" for topic in topics)
+        os.write(1, b"floods\n")
         due = time.monotonic()
         while True:
             for _ in range(in_a_row):

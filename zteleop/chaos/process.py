@@ -11,7 +11,10 @@ FAREWELL = 5.0
 
 
 class Process:
-    """Runs a command in a session of its own; what it says goes to a file."""
+    """Runs a command in a session of its own; what it says goes to a file.
+
+    One that is leashed has a stdin that ends with this process, however that ends.
+    """
 
     def __init__(
         self,
@@ -20,6 +23,8 @@ class Process:
         environment: Mapping[str, str],
         folder: Path,
         terminal: int | None = None,
+        *,
+        leashed: bool = False,
     ) -> None:
         self.name, self._log = name, folder / f"{name}.log"
         with self._log.open("ab") as log:
@@ -27,7 +32,7 @@ class Process:
                 command,
                 env=environment,
                 cwd=folder,
-                stdin=subprocess.DEVNULL if terminal is None else terminal,
+                stdin=subprocess.PIPE if leashed else subprocess.DEVNULL if terminal is None else terminal,
                 stdout=log if terminal is None else terminal,
                 stderr=log if terminal is None else terminal,
                 start_new_session=True,
@@ -50,8 +55,8 @@ class Process:
     def signal(self, number: int) -> None:
         self._process.send_signal(number)
 
-    def end(self) -> bool:
-        """Ask it to end, and kill it when it does not; True when it ended by itself."""
+    def end(self) -> None:
+        """Ask it to end, and kill it when it does not."""
         for number in (signal.SIGCONT, signal.SIGTERM):
             self.signal(number)
         try:
@@ -59,8 +64,8 @@ class Process:
         except subprocess.TimeoutExpired:
             self._process.kill()
             self._process.wait()
-            return False
-        return True
+        if self._process.stdin:
+            self._process.stdin.close()
 
 
 def actuator_of(watchdog: int) -> int | None:

@@ -50,6 +50,8 @@ def judge(bench: Bench, fault: Fault) -> Outcome:
     """Do a fault and say what followed."""
     began = time.monotonic()
     said = fault.strike(bench)
+    if isinstance(said, str) and said:
+        return Outcome(None, said, tuple(bench.notes))
     began = said if isinstance(said, float) else began
     seconds = None
     if fault.bound is not None:

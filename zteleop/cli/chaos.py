@@ -12,6 +12,7 @@ from zteleop.cli import options
 from zteleop.cli.neutral import bring_to_rest
 from zteleop.config import Config
 from zteleop.errors import ConfigError, ZteleopError
+from zteleop.nodes.stop_file import StopFile
 
 CONSENT = "wheels up"
 LATER = 0.007
@@ -33,11 +34,15 @@ def run(arguments: argparse.Namespace) -> int:
     if not faults:
         raise ConfigError(f"no fault is called {arguments.only!r}; zteleop chaos --list shows them")
     if arguments.list:
-        print("\n".join(f"{kind:10} {fault.name}" for kind, fault in faults))
+        for kind, words in chaos.KINDS.items():
+            names = [f"  {fault.name}" for its_kind, fault in faults if its_kind == kind]
+            print("\n".join([f"{kind}: {words}", *names]) if names else "", end="\n" if names else "")
         return 0
-    subject = _subject(arguments)
     left_out = [fault.name for _, fault in faults if fault.simulated and arguments.real]
     faults = [(kind, fault) for kind, fault in faults if fault.name not in left_out]
+    if not faults:
+        raise ConfigError(f"each of them needs a simulated chip: {', '.join(left_out)}; leave out --real")
+    subject = _subject(arguments)
     try:
         verdicts = _judge(subject, faults, arguments)
     finally:
@@ -75,11 +80,18 @@ def _subject(arguments: argparse.Namespace) -> Subject:
     if arguments.real:
         if settings.driver == "simulated":
             raise ConfigError("--real needs a real chip, and the simulated one is configured; set driver")
+        _heed_stop(settings.robot or config.own_name())
         _ask(settings)
         return Subject(settings, where)
     settings = msgspec.structs.replace(settings, driver="simulated")
     chip = settings.drivers.get("simulated", {}).get("path", "")
     return Subject(settings, (*where, "--driver", "simulated"), chip=chip)
+
+
+def _heed_stop(robot: str) -> None:
+    """Let no chip move whose robot is stopped, though chaos drives it under another name."""
+    if StopFile(config.state_folder(robot) / "stop", print).exists():
+        raise ConfigError(f"{robot} is stopped; zteleop stop --release {robot} first")
 
 
 def _ask(settings: Config) -> None:
@@ -103,6 +115,6 @@ def _try(subject: Subject, fault: Fault, times: int) -> list[Outcome]:
             print(f"\r{fault.name}: {number + 1} of {times} ", end="\r", file=sys.stderr, flush=True)
         try:
             outcomes.append(attempt(subject, fault, number % 10 * LATER))
-        except ZteleopError as error:
+        except (ZteleopError, OSError) as error:
             outcomes.append(Outcome(None, str(error)))
     return outcomes

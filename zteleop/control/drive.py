@@ -11,7 +11,7 @@ from zteleop.control.gate import Deadlines, Gate, Refusal
 from zteleop.control.hold import HOLDS, Holds
 from zteleop.control.limiter import Limits, TwistLimiter, WheelLimiter
 from zteleop.control.mixer import Ackermann, Mixer, Wheels
-from zteleop.control.mux import Claim, Mux, Source
+from zteleop.control.mux import HEARD_LATE, Claim, Mux, Source
 from zteleop.control.proof import NEVER, Proof, Prover
 from zteleop.control.servo import Servo
 from zteleop.control.stop import Latch, describe
@@ -200,8 +200,9 @@ class Drive:
         newest = max(self.mux.claims, key=lambda claim: claim.at, default=None)
         if newest is None:
             return ("link lost", f"{self._gone[0]} is gone") if self._gone else ("idle", "nobody drives")
-        fell_silent = newest.at + self._sources[newest.source].silence
-        if self.mux.idle(newest, min(now, fell_silent)):  # which deadline was the first to pass
+        silence = self._sources[newest.source].silence
+        fell_silent, unheard = newest.at + silence, newest.beat + silence + HEARD_LATE
+        if self.mux.idle(newest, min(now, fell_silent, unheard)):  # which deadline was the first to pass
             return "operator idle", f"no act on {newest.source} for {now - newest.acted:.1f} s"
         if now < fell_silent:
             return "link lost", f"{newest.source} has not heard the robot for {now - newest.beat:.1f} s"

@@ -57,7 +57,7 @@ class Child:
     def silence(self, now: float) -> float:
         """Return the seconds since its last step, or since it was started."""
         last = self.newest.stepped if self.newest else self.started
-        return now - last if last <= now else float("inf")  # a step yet to come, or at no time, is none
+        return now - (last if last <= now else self.started)  # a step yet to come, or at no time, is none
 
     def ask_to_end(self) -> None:
         if self._process:

@@ -2,6 +2,7 @@
 
 import io
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -9,16 +10,18 @@ from zteleop.cli import main
 
 
 @pytest.fixture(autouse=True)
-def elsewhere(tmp_path: object, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(str(tmp_path))
-    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
+def elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    for kind in ("CONFIG", "STATE"):
+        monkeypatch.setenv(f"XDG_{kind}_HOME", str(tmp_path))
 
 
 def test_list_does_nothing(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["chaos", "--list", "--only", "stop"]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert "people     stop pressed" in lines
-    assert all("stop" in line for line in lines)
+    assert lines[0] == "people: several people, or one who does the wrong thing"
+    assert "  stop pressed" in lines
+    assert all("stop" in line for line in lines if line.startswith(" "))
 
 
 def test_an_unknown_fault(capsys: pytest.CaptureFixture[str]) -> None:
@@ -33,11 +36,31 @@ def test_a_real_robot_needs_a_real_chip(capsys: pytest.CaptureFixture[str]) -> N
     assert "the simulated one is configured; set driver" in capsys.readouterr().err
 
 
-def test_nothing_turns_before_somebody_typed_so(
-    tmp_path: object, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+def test_a_stop_in_force_is_heeded_and_nothing_is_asked(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    with open("config.toml", "w") as file:
-        file.write('driver = "pca9685"\n')
+    Path("config.toml").write_text('robot = "archangel"\ndriver = "pca9685"\n')
+    place = tmp_path / "zteleop" / "robots" / "archangel"
+    place.mkdir(parents=True)
+    (place / "stop").write_text("")
+    assert main(["chaos", "--real"]) == 1
+    assert capsys.readouterr().err == (
+        "zteleop chaos: archangel is stopped; zteleop stop --release archangel first\n"
+    )
+
+
+def test_what_needs_a_simulated_chip_is_not_certified_on_a_real_one(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    Path("config.toml").write_text('driver = "pca9685"\n')
+    assert main(["chaos", "--real", "--only", "chip:"]) == 1
+    assert "each of them needs a simulated chip" in capsys.readouterr().err
+
+
+def test_nothing_turns_before_somebody_typed_so(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    Path("config.toml").write_text('driver = "pca9685"\n')
     monkeypatch.setattr(sys, "stdin", io.StringIO("y\n"))
     assert main(["chaos", "--real"]) == 1
     said = capsys.readouterr()

@@ -227,6 +227,6 @@ def test_a_frozen_one_is_killed() -> None:
 
 
 @pytest.mark.parametrize("stepped", [float("nan"), float("inf"), 1e308, 1000.0])
-def test_a_step_at_no_time_or_yet_to_come_is_silence(child: Child, stepped: float) -> None:
-    child.newest = Report(stepped, 1, 0.0)
-    assert child.silence(999.0) == float("inf")
+def test_a_step_at_no_time_or_yet_to_come_is_silence_since_the_start(child: Child, stepped: float) -> None:
+    child.newest, child.started = Report(stepped, 1, 0.0), 900.0
+    assert child.silence(999.0) == 99.0  # a figure that can be told: the bus takes no other

@@ -7,11 +7,14 @@ import atexit
 import ctypes
 import os
 import signal
+import sys
 import threading
 import time
 from types import FrameType
 
 ORDER = "ZTELEOP_CHAOS_ORDER"
+BENCH = "ZTELEOP_CHAOS_BENCH"
+PR_SET_PDEATHSIG = 1  # <linux/prctl.h>
 
 
 class SabotageError(Exception):
@@ -31,5 +34,7 @@ def obey(number: int, frame: FrameType | None) -> None:
             )
 
 
+if os.environ.get(BENCH) == str(os.getppid()) and sys.platform == "linux":
+    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)  # whoever drives ends with the bench
 if ORDER in os.environ:
     signal.signal(signal.SIGUSR1, obey)
