@@ -10,7 +10,7 @@ A type's slashes are dots; a process is its host and number. Zenoh removes a tok
 import os
 import re
 import socket
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from typing import Any, Literal, NamedTuple
 
 import zenoh
@@ -20,7 +20,7 @@ from zteleop.messages import Message
 
 Kind = Literal["pub", "sub"]
 DEPARTURES = 100
-PUBLICATIONS = 200
+PUBLICATIONS = 1000
 
 
 class Endpoint(NamedTuple):
@@ -64,19 +64,25 @@ class Departures:
 
 
 class Publications:
-    """An inbox of the paths on which a node of one robot has said that it publishes, past or to come."""
+    """The paths on which nodes of one robot say that they publish; anybody may say anything."""
 
     def __init__(self, session: zenoh.Session, robot: str) -> None:
         self._ring: Any = session.liveliness().declare_subscriber(
             f"robot/{robot}/live/pub/**", zenoh.handlers.RingChannel(PUBLICATIONS), history=True
         )
+        self._tokens: dict[str, str] = {}
 
-    def take(self) -> Iterator[str]:
-        """Yield each path that was told since the last call; anybody may tell anything."""
+    def changes(self) -> tuple[set[str], set[str]]:
+        """Return the paths that have come since the last call, and those that have gone."""
+        before = set(self._tokens.values())
         while (sample := self._ring.try_recv()) is not None:
-            path = _path(str(sample.key_expr))
-            if path and sample.kind == zenoh.SampleKind.PUT:
-                yield path
+            key = str(sample.key_expr)
+            if sample.kind != zenoh.SampleKind.PUT:
+                self._tokens.pop(key, None)
+            elif len(self._tokens) < PUBLICATIONS and (path := _path(key)):
+                self._tokens[key] = path
+        now = set(self._tokens.values())
+        return now - before, before - now
 
 
 def _path(key: str) -> str | None:

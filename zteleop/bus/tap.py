@@ -37,15 +37,16 @@ class Tap:
     def __init__(self, session: zenoh.Session, robot: str, known: Iterable[str]) -> None:
         self._session, self._prefix = session, f"robot/{robot}/"
         self._inboxes: dict[str, Any] = {}
-        for path in known:
+        self._known = tuple(known)
+        for path in self._known:
             self._hear(path)
         self._publications = Publications(session, robot)
 
     def take(self) -> Iterator[Raw]:
         """Yield what has arrived, topic by topic, without waiting."""
-        for path in self._publications.take():
-            if path not in self._inboxes and len(self._inboxes) < MOST:
-                self._hear(path)
+        come, gone = self._publications.changes()
+        for path in sorted(come - self._inboxes.keys())[: MOST - len(self._inboxes)]:
+            self._hear(path)
         now = clock.now()
         for inbox in self._inboxes.values():
             for _ in range(DEPTH):  # a flood must not keep the others waiting for ever
@@ -53,6 +54,8 @@ class Tap:
                     break
                 key = str(sample.key_expr)
                 yield _raw(sample, key if "*" in key else key.removeprefix(self._prefix), now)
+        for path in gone.difference(self._known) & self._inboxes.keys():  # their last words are taken
+            self._inboxes.pop(path).undeclare()
 
     def _hear(self, path: str) -> None:
         key = self._prefix + path

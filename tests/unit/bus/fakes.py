@@ -46,6 +46,10 @@ class Ring:
 
     def __init__(self, *samples: Sample) -> None:
         self.samples = deque(samples)
+        self.declared = True
+
+    def undeclare(self) -> None:
+        self.declared = False
 
     def recv(self) -> Sample:
         if not self.samples:

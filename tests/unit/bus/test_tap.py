@@ -15,9 +15,11 @@ class Bench:
         self.session: Any = Session()
         self.tap = Tap(self.session, "archangel", ["stop", "beat"])
 
-    def announce(self, *paths: str) -> None:
-        key = "{}live/pub/nose/host-1/any/{}"
-        self.session.alive.ring.samples.extend(Sample(b"", key=key.format(PREFIX, path)) for path in paths)
+    def announce(
+        self, *paths: str, process: str = "host-1", kind: zenoh.SampleKind = zenoh.SampleKind.PUT
+    ) -> None:
+        keys = [f"{PREFIX}live/pub/nose/{process}/any/{path}" for path in paths]
+        self.session.alive.ring.samples.extend(Sample(b"", key=key, kind=kind) for key in keys)
 
     def say(self, path: str, *samples: Sample) -> None:
         self.session.rings[PREFIX + path].samples.extend(samples)
@@ -51,6 +53,25 @@ def test_what_a_node_says_that_it_publishes_is_heard_from_then_on(bench: Bench) 
     assert bench.paths() == []
     bench.say("lidar/front", Sample(b"", key=f"{PREFIX}lidar/front"))
     assert bench.paths() == ["lidar/front"]
+
+
+def test_a_path_that_nobody_publishes_on_any_more_gives_its_place_back(bench: Bench) -> None:
+    for process in ("host-1", "host-2"):
+        bench.announce("lidar/front", process=process)
+    assert bench.paths() == []
+    for process, held in (("host-1", True), ("host-2", False)):
+        bench.announce("lidar/front", process=process, kind=zenoh.SampleKind.DELETE)
+        bench.say("lidar/front", Sample(b"", key=f"{PREFIX}lidar/front"))
+        assert bench.paths() == ["lidar/front"], "its last words count"
+        assert bench.session.rings[f"{PREFIX}lidar/front"].declared is held
+
+
+def test_a_known_path_is_heard_whoever_publishes(bench: Bench) -> None:
+    bench.announce("stop")
+    assert bench.paths() == []
+    bench.announce("stop", kind=zenoh.SampleKind.DELETE)
+    assert bench.paths() == []
+    assert bench.session.rings[f"{PREFIX}stop"].declared
 
 
 def test_what_nobody_announced_is_not_asked_for(bench: Bench) -> None:
