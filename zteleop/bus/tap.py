@@ -12,6 +12,8 @@ DEPTH = 500
 """messages that wait on each path; a flood beyond it loses the oldest"""
 MOST = 64
 """paths that are heard at once"""
+FLOOD, PAUSE = 150, 1.0
+"""messages at once, after which a path is not heard for some s: each that is passed on costs the robot"""
 
 
 class Raw(NamedTuple):
@@ -38,6 +40,7 @@ class Tap:
         self._session, self._prefix = session, f"robot/{robot}/"
         self._inboxes: dict[str, Any] = {}
         self._known = tuple(known)
+        self._paused: dict[str, float] = {}
         for path in self._known:
             self._hear(path)
         self._publications = Publications(session, robot)
@@ -45,21 +48,33 @@ class Tap:
     def take(self) -> Iterator[Raw]:
         """Yield what has arrived, topic by topic, without waiting."""
         come, gone = self._publications.changes()
-        for path in sorted(come - self._inboxes.keys())[: MOST - len(self._inboxes)]:
+        new = come - self._inboxes.keys() - self._paused.keys()
+        for path in sorted(new)[: MOST - len(self._inboxes)]:
             self._hear(path)
         now = clock.now()
-        for inbox in self._inboxes.values():
-            for _ in range(DEPTH):  # a flood must not keep the others waiting for ever
-                if (sample := inbox.try_recv()) is None:
-                    break
+        for path in [path for path, until in self._paused.items() if until <= now]:
+            del self._paused[path]
+            self._hear(path)
+        for path, inbox in list(self._inboxes.items()):
+            taken = 0
+            while taken < DEPTH and (sample := inbox.try_recv()) is not None:
+                taken += 1
                 key = str(sample.key_expr)
                 yield _raw(sample, key if "*" in key else key.removeprefix(self._prefix), now)
-        for path in gone.difference(self._known) & self._inboxes.keys():  # their last words are taken
-            self._inboxes.pop(path).undeclare()
+            if taken >= FLOOD:
+                self._paused[path] = now + PAUSE
+                self._leave(path)
+        for path in gone.difference(self._known):  # their last words are taken
+            self._paused.pop(path, None)
+            self._leave(path)
 
     def _hear(self, path: str) -> None:
         key = self._prefix + path
         self._inboxes[path] = self._session.declare_subscriber(key, zenoh.handlers.RingChannel(DEPTH))
+
+    def _leave(self, path: str) -> None:
+        if inbox := self._inboxes.pop(path, None):
+            inbox.undeclare()
 
 
 def _raw(sample: zenoh.Sample, path: str, now: float) -> Raw:

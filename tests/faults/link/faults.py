@@ -111,7 +111,7 @@ FAULTS = (
     LinkFault("nothing comes from the robot", link(SOUND, DEAD), lasts=2.5),
     LinkFault("10 % lost", link(Way(loss=0.1)), None, 2.0, "either", short=False),
     LinkFault("30 % lost", link(Way(loss=0.3)), None, 4.0, "either", short=False),
-    LinkFault("50 % lost", link(Way(loss=0.5)), None, 3.0, "either"),
+    LinkFault("50 % lost", link(Way(loss=0.5)), None, 3.0, "either", short=False),
     LinkFault("20 ms and jitter", link(Way(delay=0.02, jitter=0.01)), None, 1.0, "drives", short=False),
     LinkFault("100 ms and jitter", link(Way(delay=0.1, jitter=0.02)), None, 2.0, "drives"),
     LinkFault("250 ms and jitter", link(Way(delay=0.25, jitter=0.05)), OUTAGE, 3.0, "rests", short=False),

@@ -106,7 +106,9 @@ class Session:
         return self.alive
 
     def declare_subscriber(self, key: str, handler: object) -> Ring:
-        return self.rings.setdefault(key, Ring())
+        ring = self.rings.setdefault(key, Ring())
+        ring.declared = True
+        return ring
 
     def declare_publisher(self, key: str, **qos: Any) -> ZenohPublisher:
         return self.publishers.setdefault(key, (ZenohPublisher(), qos))[0]

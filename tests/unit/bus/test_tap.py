@@ -92,7 +92,7 @@ def test_a_wildcard_is_taken_under_its_whole_key(bench: Bench) -> None:
     assert bench.paths() == keys
 
 
-def test_a_flood_leaves_the_others_their_turn(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_flood_leaves_the_others_their_turn(bench: Bench) -> None:
     class Endless(Ring):
         def try_recv(self) -> Sample:
             return Sample(b"", key=f"{PREFIX}stop")
@@ -100,3 +100,16 @@ def test_a_flood_leaves_the_others_their_turn(bench: Bench, monkeypatch: pytest.
     bench.tap._inboxes["stop"] = Endless()
     bench.say("beat", Sample(b"", key=f"{PREFIX}beat"))
     assert bench.paths() == ["stop"] * module.DEPTH + ["beat"]
+
+
+def test_a_flooded_path_is_not_heard_for_a_while_and_then_again(bench: Bench, clock: Clock) -> None:
+    said = Sample(b"", key=f"{PREFIX}stop")
+    bench.say("stop", *[said] * module.FLOOD)
+    assert bench.paths() == ["stop"] * module.FLOOD
+    assert not bench.session.rings[f"{PREFIX}stop"].declared
+    clock.pass_by(module.PAUSE - 0.1)
+    bench.say("stop", said)
+    assert bench.paths() == []
+    clock.pass_by(0.2)
+    assert bench.paths() == ["stop"]
+    assert bench.session.rings[f"{PREFIX}stop"].declared
