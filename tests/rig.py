@@ -25,11 +25,13 @@ from zteleop.bus.subscription import Subscription
 from zteleop.drivers.registers import read_duty_ticks
 from zteleop.drivers.simulated import open_registers
 from zteleop.messages import Message
+from zteleop.nodes import realtime
 
 M = TypeVar("M", bound=Message)
 THROTTLE, STEERING = 0, 1
 NEUTRAL = (375, 370)
-PATIENCE = 10.0
+PATIENCE = 30.0 * float(os.environ.get("ZTELEOP_PATIENCE", "1"))
+"""s until an event that is awaited is given up: no claim, only the end of hope"""
 ZTELEOP = (sys.executable, "-m", "zteleop")
 TAKE_TERMINAL = """
 import fcntl, os, sys, termios
@@ -44,13 +46,12 @@ def free_port() -> int:
         return int(probe.getsockname()[1])
 
 
-def until(condition: Callable[[], object], what: str, patience: float = PATIENCE) -> float:
-    """Wait for what no event tells of, such as a register; return the seconds it took."""
+def until(condition: Callable[[], object], what: str) -> None:
+    """Wait for what no event tells of, such as a register; how long it takes is `verdict`'s to judge."""
     began = time.monotonic()
     while not condition():
-        assert time.monotonic() - began < patience, f"not within {patience} s: {what}"
+        assert time.monotonic() - began < PATIENCE, f"not within {PATIENCE:g} s: {what}"
         time.sleep(0.0005)
-    return time.monotonic() - began
 
 
 def hear(inbox: Subscription[M], wanted: Callable[[M], bool], what: str) -> M:
@@ -63,6 +64,20 @@ def hear(inbox: Subscription[M], wanted: Callable[[M], bool], what: str) -> M:
 
     until(look, what)
     return found[0]
+
+
+_started: list["Process"] = []
+"""Processes whose words a failed test shows."""
+
+
+def words() -> list[tuple[str, str]]:
+    """Return the command and the last words of every process that was started and not forgotten."""
+    return [(" ".join(process.command[-9:])[-100:], process.text[-3000:]) for process in _started]
+
+
+def forget_the_ended() -> None:
+    """Leave out the processes of tests that are over."""
+    _started[:] = [process for process in _started if process.process.poll() is None]
 
 
 class Process:
@@ -90,8 +105,10 @@ class Process:
             stderr=subprocess.STDOUT,
             start_new_session=True,
         )
+        self.command = command
         self._reader = threading.Thread(target=self._read, args=(self.process.stdout,), daemon=True)
         self._reader.start()
+        _started.append(self)
 
     def _read(self, output: IO[bytes]) -> None:
         for line in output:
@@ -105,10 +122,10 @@ class Process:
     def text(self) -> str:
         return "\n".join(self.lines)
 
-    def says(self, text: str, patience: float = PATIENCE) -> str:
+    def says(self, text: str) -> str:
         """Wait for a line that holds a text."""
         with self._said:
-            found = self._said.wait_for(lambda: next((x for x in self.lines if text in x), None), patience)
+            found = self._said.wait_for(lambda: next((x for x in self.lines if text in x), None), PATIENCE)
         assert found, f"never said {text!r}:\n{self.text}"
         return found
 
@@ -125,10 +142,10 @@ class Process:
                     return int(child)
         return None
 
-    def ends(self, patience: float = PATIENCE) -> int:
+    def ends(self) -> int:
         """Wait for the end; return the exit code."""
-        code = self.process.wait(patience)
-        self._reader.join(patience)
+        code = self.process.wait(PATIENCE)
+        self._reader.join(PATIENCE)
         return code
 
     def close(self) -> None:
@@ -179,14 +196,18 @@ class Terminal(Process):
             self._screen.resize(rows, columns)
         self._set_size(columns, rows)
 
-    def shows(self, *texts: str, patience: float = PATIENCE) -> str:
+    @property
+    def text(self) -> str:
+        return self.screen
+
+    def shows(self, *texts: str) -> str:
         """Wait until all these texts are on the screen together; return the screen."""
 
         def found() -> bool:
             return all(text in "\n".join(self._screen.display) for text in texts)
 
         with self._said:
-            seen = self._said.wait_for(found, patience)
+            seen = self._said.wait_for(found, PATIENCE)
         assert seen, f"never showed {texts}:\n{self.screen}"
         return self.screen
 
@@ -211,8 +232,8 @@ class Terminal(Process):
         self._reader.join()
         os.close(self._master)
 
-    def ends(self, patience: float = PATIENCE) -> int:
-        return self.process.wait(patience)
+    def ends(self) -> int:
+        return self.process.wait(PATIENCE)
 
     def _set_size(self, columns: int, rows: int) -> None:
         """Set the size; the kernel tells whoever is in the foreground by SIGWINCH."""
@@ -275,6 +296,7 @@ class Rig:
         self.registers = open_registers(self.chip)
         self._stack = ExitStack()
         self._stack.callback(self.registers.close)
+        self._processes: list[Process] = []
 
     def __enter__(self) -> Self:
         return self
@@ -346,7 +368,14 @@ class Rig:
         self._stack.callback(session.close)
         return session
 
+    @property
+    def pids(self) -> list[int]:
+        """Every process of the robot and of who talks to it; an actuator after its watchdog."""
+        found = [(process.process.pid, process.child) for process in self._processes]
+        return [pid for pair in found for pid in pair if pid]
+
     def _keep(self, process: P) -> P:
+        self._processes.append(process)
         self._stack.callback(process.close)
         return process
 
@@ -397,6 +426,7 @@ def repeating(act: Callable[[], object], period: float) -> Iterator[None]:
     ended = threading.Event()
 
     def run() -> None:
+        realtime.follow()
         due = time.monotonic()
         while not ended.wait(max(0.0, due - time.monotonic())):
             due += period

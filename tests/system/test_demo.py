@@ -70,7 +70,7 @@ def robot_of(demo: Process) -> str:
 
 
 def leaves_nothing(robot: str) -> None:
-    until(lambda: not processes(robot), f"the end of {processes(robot)}", patience=4.0)
+    until(lambda: not processes(robot), f"the end of {processes(robot)}")
 
 
 def test_two_demos_at_once_do_not_disturb_each_other(pair: Pair) -> None:
@@ -117,7 +117,7 @@ def test_a_demo_leaves_the_robot_of_the_config_file_alone(rig: Rig, screen: Term
 
 def test_without_a_terminal_it_drives_a_figure_and_says_so_every_second(pair: Pair) -> None:
     figure, robot, _ = pair
-    assert figure.ends(patience=15.0) == 0
+    assert figure.ends() == 0
     assert figure.lines[0] == "no terminal: driving a figure of eight for 10 s"
     assert re.fullmatch(r"drove [1-9]\.\d m and stopped", figure.lines[-1])
     lines = [LINE.match(line) for line in figure.lines[1:-1]]

@@ -47,6 +47,8 @@ NAMES = [
     "%s",
     "../..",
 ]
+ASKS = 0.5
+"""s for which a question stays open"""
 BIG = [b"x" * 1_000_000, b"[" * 1_000_000, b'{"linear":' * 100_000, b"\xff" * 10_000_000]
 GROWTH = 2 * 2**20
 """bytes that the actuator may keep of an attack"""
@@ -218,8 +220,8 @@ def test_the_journal_has_kept_only_text(company: Company) -> None:
 
 def test_questions_to_everybody(stranger: zenoh.Session, harmless: None) -> None:
     for key in ("**", "robot/**", "robot/bench/cmd_vel/*", "robot/bench/cmd_vel/keyboard"):
-        list(stranger.get(key, payload=b"\xff" * 1000, encoding="x", attachment=bytes(48), timeout=0.5))
-        list(stranger.liveliness().get(key, timeout=0.5))
+        list(stranger.get(key, payload=b"\xff" * 1000, encoding="x", attachment=bytes(48), timeout=ASKS))
+        list(stranger.liveliness().get(key, timeout=ASKS))
 
 
 @pytest.mark.parametrize("content", [b"", b"x", b"\xff" * 256 + bytes(16), bytes(5000)], ids=len)

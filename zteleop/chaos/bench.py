@@ -130,6 +130,11 @@ class Bench:
             raise BusError(f"no actuator runs: {self.watchdog.words}")
         return found
 
+    def path(self) -> list[int]:
+        """Return the processes that bring the wheels to rest, and this one, which sees it."""
+        theirs = (self.watchdog.pid, actuator_of(self.watchdog.pid), self.operator and self.operator.pid)
+        return [os.getpid(), *(pid for pid in theirs if pid)]
+
     @contextmanager
     def faults(self) -> Iterator[Faults]:
         """Open a simulated chip for faults to be put in; what no transfer has met stays."""

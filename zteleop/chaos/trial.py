@@ -8,6 +8,8 @@ from typing import NamedTuple
 from zteleop.chaos.bench import Bench, Subject
 from zteleop.chaos.fault import Fault
 from zteleop.chaos.operators import OPERATORS
+from zteleop.chaos.waiting import Meter, Verdict
+from zteleop.chaos.waiting import judge as judge_time
 from zteleop.errors import BusError
 
 PATIENCE = 10.0
@@ -26,6 +28,16 @@ class Outcome(NamedTuple):
     """What should not have happened, in words."""
     notes: tuple[str, ...] = ()
     """What is worth saying besides."""
+    waited: float = 0.0
+    """s for which whoever had to bring them to rest wanted a core and had none"""
+
+    def verdict(self, bound: float | None) -> Verdict:
+        """Say whether its bound was kept, as far as the machine let it be seen."""
+        return (
+            "in time"
+            if self.seconds is None or bound is None
+            else judge_time(self.seconds, bound, self.waited)
+        )
 
 
 @contextmanager
@@ -48,19 +60,26 @@ def attempt(subject: Subject, fault: Fault, moment: float = 0.0) -> Outcome:
 
 def judge(bench: Bench, fault: Fault) -> Outcome:
     """Do a fault and say what followed."""
-    began = time.monotonic()
+    meter, began = Meter(bench.path), time.monotonic()
     said = fault.strike(bench)
     if isinstance(said, str) and said:
         return Outcome(None, said, tuple(bench.notes))
-    began = said if isinstance(said, float) else began
+    if isinstance(said, float):  # it took its time, which is nobody's wait
+        meter, began = Meter(bench.path), said
     seconds = None
     if fault.bound is not None:
-        rested = bench.until(lambda: bench.eye.at_rest, GIVE_UP)
+        rested = bench.until(lambda: _rests(bench, meter), GIVE_UP)
         if rested is None:
             return Outcome(None, f"its wheels still turned {GIVE_UP:g} s later", tuple(bench.notes))
         seconds = rested - began
+    waited = meter.waited
     fault.afterwards(bench)
-    return Outcome(seconds, _what_follows(bench, fault), tuple(bench.notes))
+    return Outcome(seconds, _what_follows(bench, fault), tuple(bench.notes), waited)
+
+
+def _rests(bench: Bench, meter: Meter) -> bool:
+    meter.glance()
+    return bench.eye.at_rest
 
 
 def _what_follows(bench: Bench, fault: Fault) -> str:

@@ -70,6 +70,11 @@ class Network:
     def __exit__(self, *exc: object) -> None:
         self._stack.close()
 
+    @property
+    def pids(self) -> list[int]:
+        """The cable's own process."""
+        return [self._cable.pid]
+
     def _build(self) -> None:
         for namespace in (self.operator, self.robot):
             _ip("netns", "add", namespace)

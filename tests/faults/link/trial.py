@@ -7,7 +7,8 @@ from typing import NamedTuple
 from faults.link.bench import FRESH, Bench
 from faults.link.faults import LinkFault
 from faults.link.network import Network
-from rig import PATIENCE, until
+from rig import until
+from verdict import meter
 
 SETTLE = 0.2
 """s of undisturbed driving"""
@@ -32,6 +33,8 @@ class Outcome(NamedTuple):
     """whether it went on by itself afterwards"""
     broken: str = ""
     """What should not have happened, in words."""
+    waited: float = 0.0
+    """s until rest for which processes wanted a core and had none"""
 
 
 def attempt(fault: LinkFault, folder: Path, moment: float = 0.0, seed: int = 0) -> Outcome:
@@ -45,11 +48,11 @@ def attempt(fault: LinkFault, folder: Path, moment: float = 0.0, seed: int = 0) 
 
 def judge(bench: Bench, fault: LinkFault) -> Outcome:
     """Do a fault and say what followed."""
-    struck = time.monotonic()
+    its, struck = meter(bench.rig), time.monotonic()
     fault.strike(bench)
     if fault.bound is not None:
-        until(lambda: bench.at_rest, f"neutral: {fault.name}")
-    rested = time.monotonic()
+        until(lambda: its.glance() or bench.at_rest, f"neutral: {fault.name}")
+    rested, waited = time.monotonic(), its.waited
     seconds = None if fault.bound is None else rested - struck
     time.sleep(max(0.0, struck + fault.lasts - time.monotonic()))
     undone = time.monotonic()
@@ -57,14 +60,15 @@ def judge(bench: Bench, fault: LinkFault) -> Outcome:
     ended, broken = _follow(bench, fault, rested, undone)
     share = bench.witness.moved(struck, undone) / max(1.0, fault.rate * (undone - struck))
     witness = bench.witness
-    return Outcome(seconds, witness.stale, witness.oldest(struck), share, ended, broken or _find_fault(bench))
+    broken = broken or _find_fault(bench)
+    return Outcome(seconds, witness.stale, witness.oldest(struck), share, ended, broken, waited)
 
 
 def _follow(bench: Bench, fault: LinkFault, rested: float, undone: float) -> tuple[str, str]:
     """Say how it went on, and what was wrong with that."""
     bench.is_heard_again()
     if fault.then == "drives":
-        until(lambda: bench.witness.moved(undone), f"motion: {fault.name}\n{bench.watchdog.text}", PATIENCE)
+        until(lambda: bench.witness.moved(undone), f"motion: {fault.name}")
         return "drives", ""
     quiet = QUIET if fault.then == "rests" else RESUMES
     since = rested if fault.then == "rests" else undone

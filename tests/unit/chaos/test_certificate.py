@@ -22,6 +22,27 @@ def test_one_trial_over_the_bound_breaks_it() -> None:
     assert found.line().endswith("BROKEN")
 
 
+def test_a_trial_that_only_the_machine_made_late_is_void_and_told() -> None:
+    found = verdict(
+        "parts", STRUCK, [Outcome(0.003), Outcome(0.07, waited=0.03), Outcome(0.004, waited=0.001)]
+    )
+    assert (found.times, found.void, found.worst, found.kept) == (2, 1, 0.004, True)
+    assert found.line().endswith("4.0 ms   50.0 ms  kept, 1 void")
+    told = certify("a car", [found], []).summary().splitlines()[1]
+    assert told == "1 trials void: late only because their processes waited for a core (longest wait 30.0 ms)"
+
+
+def test_waiting_excuses_no_more_than_itself_and_no_motion() -> None:
+    assert verdict("parts", STRUCK, [Outcome(0.07, waited=0.01)]).line().endswith("BROKEN")
+    assert verdict("parts", STRUCK, [Outcome(0.07, "it moved again", waited=0.03)]).line().endswith("BROKEN")
+
+
+def test_a_fault_that_was_never_judged_is_not_kept() -> None:
+    found = verdict("parts", STRUCK, [Outcome(0.07, waited=0.03)])
+    assert not found.kept
+    assert found.line().endswith("  0         -         -   50.0 ms  NOT JUDGED, 1 void")
+
+
 def test_what_broke_is_said_once_however_often_it_did() -> None:
     outcomes = [
         Outcome(None, "its wheels still turned"),

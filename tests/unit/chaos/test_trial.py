@@ -19,6 +19,9 @@ class Scripted:
         self.watchdog = self.eye = self
         self.words = "it said nothing"
 
+    def path(self) -> list[int]:
+        return []
+
     @property
     def at_rest(self) -> bool:
         return self.stops <= self.now < self.starts

@@ -12,6 +12,7 @@ import pytest
 from faults.link.emulator import Way
 from faults.link.network import DEAD, ROBOT, SOUND, Network, obstacle
 from rig import every
+from verdict import excusable
 
 if obstacle():
     pytest.skip(obstacle(), allow_module_level=True)
@@ -19,8 +20,8 @@ if obstacle():
 PORT = 9000
 HEADERS = 42
 """bytes of Ethernet, IP and UDP around a datagram"""
-BUSY = 0.02
-"""s that a machine may take which runs other tests"""
+COST = 0.02
+"""s that the emulator may add to each way"""
 SEED = 7
 
 
@@ -84,34 +85,38 @@ def delays(arrivals: dict[int, tuple[float, float]]) -> list[float]:
 
 
 def test_a_sound_cable_adds_nothing_and_loses_nothing(ends: Ends) -> None:
-    arrivals = ends.arrivals(100, 0.002)
+    with excusable(0.0025, ends.network):
+        arrivals = ends.arrivals(100, 0.002)
+        assert statistics.median(delays(arrivals)) < 0.005
     assert list(arrivals) == list(range(100))
-    assert statistics.median(delays(arrivals)) < 0.005
 
 
 def test_it_delays_each_frame(ends: Ends) -> None:
     ends.network.set(Way(delay=0.05))
-    arrivals = ends.arrivals(50, 0.005)
+    with excusable(COST / 2, ends.network):
+        arrivals = ends.arrivals(50, 0.005)
+        assert statistics.median(delays(arrivals)) < 0.05 + COST
     assert len(arrivals) == 50
     assert min(delays(arrivals)) >= 0.05
-    assert statistics.median(delays(arrivals)) < 0.05 + BUSY
 
 
 def test_jitter_spreads_the_delays_and_keeps_the_order(ends: Ends) -> None:
     ends.network.set(Way(delay=0.02, jitter=0.04))
-    arrivals = ends.arrivals(100, 0.01)
+    with excusable(COST, ends.network):
+        arrivals = ends.arrivals(100, 0.01)
+        assert 0.05 < max(delays(arrivals)) < 0.06 + 2 * COST
     assert list(arrivals) == list(range(100))
     assert min(delays(arrivals)) >= 0.02
-    assert 0.05 < max(delays(arrivals)) < 0.06 + 2 * BUSY
     assert max(delays(arrivals)) - min(delays(arrivals)) > 0.015
 
 
 def test_frames_overtake_each_other(ends: Ends) -> None:
     ends.network.set(Way(delay=0.03, overtaking=0.2))
-    order = list(ends.arrivals(200, 0.002))
+    with excusable(COST / 2, ends.network):
+        order = list(ends.arrivals(200, 0.002))
+        ahead = sum(number > later for number, later in pairwise(order))
+        assert 10 < ahead < 60, "of 200 a fifth should have overtaken, in a few groups"
     assert sorted(order) == list(range(200))
-    ahead = sum(number > later for number, later in pairwise(order))
-    assert 10 < ahead < 60, "of 200 a fifth should have overtaken, in a few groups"
 
 
 def test_it_loses_a_share_of_the_frames(ends: Ends) -> None:
@@ -121,10 +126,11 @@ def test_it_loses_a_share_of_the_frames(ends: Ends) -> None:
 
 def test_it_lets_through_no_more_than_its_rate_and_drops_what_its_queue_cannot_hold(ends: Ends) -> None:
     ends.network.set(Way(rate=64_000, queue=10))
-    arrivals = ends.arrivals(40, 0.001, size=400 - HEADERS)  # each takes 50 ms
-    assert len(arrivals) in (10, 11)
-    first, *_, last = (arrived for _, arrived in arrivals.values())
-    assert last - first == pytest.approx(0.05 * (len(arrivals) - 1), abs=BUSY)
+    with excusable(COST / 2, ends.network):
+        arrivals = ends.arrivals(40, 0.001, size=400 - HEADERS)  # each takes 50 ms
+        assert len(arrivals) in (10, 11)
+        first, *_, last = (arrived for _, arrived in arrivals.values())
+        assert last - first == pytest.approx(0.05 * (len(arrivals) - 1), abs=COST)
 
 
 def test_one_direction_may_be_dead(ends: Ends) -> None:

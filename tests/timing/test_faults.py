@@ -9,7 +9,8 @@ from pathlib import Path
 
 import preload
 import pytest
-from rig import NEUTRAL, ZTELEOP, Rig, every, repeating, until
+from rig import NEUTRAL, PATIENCE, ZTELEOP, Rig, every, repeating, until
+from verdict import Deadline, NotJudged, judged
 
 from zteleop import chaos
 from zteleop.chaos.bench import Subject
@@ -23,8 +24,8 @@ from zteleop.messages import Pwm
 FORWARD = Pwm(390, 400)
 DRIVEN = (390, 400)
 STREAM = 0.02
-BUSY = 0.1
-"""s more than the bound, which a machine that runs other tests may take"""
+SILENCE = 0.37
+"""s: the deadline, a beat's age, a step"""
 LONG = {
     "actuator crashes",
     "watchdog crashes",
@@ -45,7 +46,9 @@ SHORT = [fault for kind, fault in chaos.faults() if kind != "load" and fault.nam
 def test_a_fault_brings_neutral_in_time_and_for_good(fault: Fault) -> None:
     outcome = attempt(Subject(Config(), ("--driver", "simulated")), fault)
     assert outcome.broken == ""
-    assert fault.bound is None or (outcome.seconds or 0.0) <= fault.bound + BUSY
+    if fault.bound is not None:
+        assert outcome.seconds is not None
+        judged(outcome.seconds, fault.bound, outcome.waited)
 
 
 def test_the_real_driver_keeps_the_same_bounds_and_waits_for_consent(tmp_path: Path) -> None:
@@ -55,9 +58,8 @@ def test_the_real_driver_keeps_the_same_bounds_and_waits_for_consent(tmp_path: P
 
     def chaos_on_wheels(consent: str) -> "subprocess.CompletedProcess[str]":
         command = [*ZTELEOP, "chaos", "--real", "--json", "--times", "1", "--only", "actuator killed"]
-        return subprocess.run(
-            command, input=consent, env=environment, cwd=tmp_path, capture_output=True, text=True, timeout=60
-        )
+        said = {"capture_output": True, "text": True, "timeout": PATIENCE}
+        return subprocess.run(command, input=consent, env=environment, cwd=tmp_path, **said)
 
     refused = chaos_on_wheels("yes\n")
     assert refused.returncode == 1
@@ -66,7 +68,11 @@ def test_the_real_driver_keeps_the_same_bounds_and_waits_for_consent(tmp_path: P
     verdicts = json.loads(done.stdout.splitlines()[-1])["verdicts"]
     assert {verdict["fault"] for verdict in verdicts} >= {"actuator killed", "operator and actuator killed"}
     assert all(words.startswith("it took") for verdict in verdicts for words in verdict["broken"])
-    assert all(verdict["worst"] <= 0.05 + BUSY for verdict in verdicts)
+    for verdict in verdicts:
+        assert verdict["times"] + verdict["void"] >= 1
+        if not verdict["times"]:
+            raise NotJudged(f"{verdict['fault']} was void each time")
+        judged(verdict["worst"], verdict["bound"], verdict["longest_wait"])
 
 
 def running(words: str) -> list[int]:
@@ -91,8 +97,9 @@ def test_chaos_that_is_killed_itself_leaves_no_wheel_turning(tmp_path: Path) -> 
             return read_duty_ticks(chip.snapshot(), 1) in (None, NEUTRAL[0])
 
         until(lambda: not rests(), "the wheels turn")
+        deadline = Deadline()
         killed.kill()
-        assert until(rests, "the wheels are at rest") <= 0.5
+        deadline.met(rests, "the wheels are at rest", 0.5)
         for _ in every(0.005, 100):
             assert rests()
         chip.close()
@@ -122,9 +129,9 @@ def test_a_log_that_nobody_reads_holds_up_nobody(tmp_path: Path) -> None:
                 until(lambda: rig.ticks == DRIVEN, "the command on the chip")
                 for _ in range(3):  # each is refused, and said so
                     rig.node().publisher("pwm", Pwm, source="keyboard").publish(FORWARD)
-            assert until(lambda: rig.ticks == NEUTRAL, "neutral after silence") <= 0.35 + BUSY
+            Deadline(rig).met(lambda: rig.ticks == NEUTRAL, "neutral after silence", SILENCE)
             robot.terminate()
-            assert robot.wait(5.0) == 128 + signal.SIGTERM
+            assert robot.wait(PATIENCE) == 128 + signal.SIGTERM
         finally:
             robot.kill()
             robot.wait()
@@ -146,4 +153,4 @@ def test_no_key_of_its_terminal_leaves_the_wheels_turning(tmp_path: Path, key: s
             terminal.type(key)
             if key == "\x1c":
                 until(lambda: rig.ticks == NEUTRAL, "neutral")
-        assert until(lambda: rig.ticks == NEUTRAL, "neutral after silence") <= 0.35 + BUSY
+        Deadline(rig).met(lambda: rig.ticks == NEUTRAL, "neutral after silence", SILENCE)

@@ -7,16 +7,20 @@ from contextlib import contextmanager
 
 import pytest
 from rig import NEUTRAL, Process, Rig, every, until
+from verdict import Deadline
 
-from zteleop.bus import clock
 from zteleop.bus.node import Node
 from zteleop.chaos.cable import Cable
 from zteleop.messages import Pwm
+from zteleop.nodes import realtime
 
 FORWARD = Pwm(390, 400)
 PATTERN = (390, 400)
 SILENCE = 0.3
-MARGIN = 0.15  # one beat's age, one step, and a busy machine
+MARGIN = 0.07
+"""s: a beat's age, and a step of the robot"""
+WAKES = 0.05
+"""s until a watchdog that stood still is at work again, and with it its robot at rest"""
 
 
 class Operator:
@@ -38,6 +42,7 @@ class Operator:
         self._thread.join()
 
     def _run(self) -> None:
+        realtime.follow()
         while not self._ended.wait(0.02):
             if self._acts:
                 self._publisher.act()
@@ -57,8 +62,8 @@ def driven(rig: Rig) -> None:
     until(lambda: rig.ticks == PATTERN, "the command on the chip")
 
 
-def neutral_after(rig: Rig, patience: float = 5.0) -> float:
-    return until(lambda: rig.ticks == NEUTRAL, "neutral", patience)
+def rests(rig: Rig) -> bool:
+    return rig.ticks == NEUTRAL
 
 
 @pytest.fixture
@@ -72,13 +77,15 @@ def program(rig: Rig) -> Process:
 
 
 def test_a_killed_sender(rig: Rig, program: Process) -> None:
+    deadline = Deadline(rig)
     program.signal(signal.SIGKILL)
-    assert neutral_after(rig) <= SILENCE + MARGIN
+    deadline.met(lambda: rests(rig), "neutral", SILENCE + MARGIN)
 
 
 def test_a_frozen_sender_and_its_return(rig: Rig, program: Process) -> None:
+    deadline = Deadline(rig)
     program.signal(signal.SIGSTOP)
-    assert neutral_after(rig) <= SILENCE + MARGIN
+    deadline.met(lambda: rests(rig), "neutral", SILENCE + MARGIN)
     program.signal(signal.SIGCONT)
     driven(rig)
 
@@ -90,8 +97,9 @@ def test_a_cut_link(rig: Rig) -> None:
         rig.hear(node)
         with operator(node):
             driven(rig)
+            deadline = Deadline(rig)
             cable.cut()
-            assert neutral_after(rig) <= SILENCE + MARGIN
+            deadline.met(lambda: rests(rig), "neutral", SILENCE + MARGIN)
             for _ in every(0.02, 125):
                 assert rig.ticks == NEUTRAL
             cable.mend()
@@ -103,13 +111,12 @@ def test_an_idle_operator_and_the_next_act(rig: Rig) -> None:
     rig.actuator()
     node = rig.node()
     rig.hear(node)
-    began = clock.now()
+    deadline = Deadline(rig)
     with operator(node, acts=False) as it:
         driven(rig)
-        neutral_after(rig, patience=6.0)
-        assert 4.9 <= clock.now() - began <= 5.0 + MARGIN
+        deadline.met(lambda: rests(rig), "neutral", 5.0 + MARGIN, not_before=4.9)
         it.act()
-        assert until(lambda: rig.ticks == PATTERN, "motion after the next act") <= 0.5
+        driven(rig)
 
 
 def test_stale_commands_never_move_the_robot(rig: Rig) -> None:
@@ -124,8 +131,9 @@ def test_stale_commands_never_move_the_robot(rig: Rig) -> None:
             for _ in every(0.02, 150):
                 pass
             cable.cut()
+            deadline = Deadline(rig)
             actuator.signal(signal.SIGCONT)
-            neutral_after(rig, patience=0.5)
+            deadline.met(lambda: rests(rig), "neutral", WAKES)
             for _ in every(0.001, 2000):
                 assert rig.ticks == NEUTRAL
 
@@ -139,8 +147,9 @@ def test_an_actuator_that_stood_still_waits_until_the_operator_lets_go(rig: Rig)
         actuator.signal(signal.SIGSTOP)
         for _ in every(0.02, 25):
             pass
+        deadline = Deadline(rig)
         actuator.signal(signal.SIGCONT)
-        neutral_after(rig, patience=0.5)
+        deadline.met(lambda: rests(rig), "neutral", WAKES)
         for _ in every(0.02, 50):
             assert rig.ticks == NEUTRAL
     actuator.says("let go first")

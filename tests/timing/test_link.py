@@ -10,12 +10,13 @@ from faults.link.faults import FAULTS, LinkFault
 from faults.link.network import DEAD, SOUND, Network, obstacle
 from faults.link.trial import attempt
 from rig import until
+from verdict import excusable, judged
 
 if obstacle():
     pytest.skip(obstacle(), allow_module_level=True)
 
-BUSY = 0.1
-"""s more than the bound, which a machine that runs other tests may take"""
+HICCUP = 0.15
+"""s for which a machine must keep processes waiting, so that a robot rests of its own accord"""
 TAKEN_OVER = 1.0
 """s after which the other drives: the first is silent for 0.3 s, and the other acts all the time"""
 GIVEN_UP = 4.0
@@ -31,20 +32,20 @@ def test_whatever_the_link_does_nothing_old_moves_the_robot(tmp_path: Path, faul
     assert not outcome.broken
     if fault.bound is not None:
         assert outcome.seconds is not None
-        assert outcome.seconds <= fault.bound + BUSY
+        judged(outcome.seconds, fault.bound, outcome.waited)
 
 
 def test_whoever_drives_is_not_disturbed_by_another_whose_cable_is_cut(tmp_path: Path) -> None:
     with Network() as network, Bench(network, tmp_path) as bench:
         command = [sys.executable, "-m", "faults.link.sender", bench.rig.robot, bench.rig.endpoint]
         bench.rig.start(network.robot, command, bench.rig.environment).says("heard")
-        network.set(DEAD)
-        cut = time.monotonic()
-        taken = cut + TAKEN_OVER
-        until(lambda: time.monotonic() > cut + GIVEN_UP, "the end of the first operator's link")
-        assert bench.witness.moved(taken)
-        assert not [at - cut for at in bench.witness.rests if at > taken]
+        with excusable(HICCUP, bench.rig):
+            network.set(DEAD)
+            cut = time.monotonic()
+            taken = cut + TAKEN_OVER
+            until(lambda: time.monotonic() > cut + GIVEN_UP, "the end of the first operator's link")
+            assert bench.witness.moved(taken)
+            network.set(SOUND)
+            bench.is_heard_again()
+            assert not [at - cut for at in bench.witness.rests if at > taken]
         assert not bench.witness.stale
-        network.set(SOUND)
-        bench.is_heard_again()
-        assert not [at - cut for at in bench.witness.rests if at > taken]

@@ -13,7 +13,7 @@ import pytest
 from faults.clocks import Clocks
 from faults.link.bench import Bench
 from faults.link.network import Network, obstacle
-from rig import until
+from verdict import Deadline, excusable
 
 if obstacle():
     pytest.skip(obstacle(), allow_module_level=True)
@@ -27,10 +27,12 @@ DAYS = {
 }
 DRIVES = 0.35
 """s of undisturbed driving that show that nothing has changed"""
-LONGEST_GAP = 0.25
-"""s between two commands on the chip, at 50 Hz, on a machine that runs other tests"""
+LONGEST_GAP = 0.15
+"""s between two commands on the chip, at 50 Hz"""
 WAKES = 0.1
 """s until a robot that slept is at rest"""
+SILENCE = 0.45
+"""s until a robot rests that hears nothing more, or commands that prove less and less"""
 
 
 class Sleepers:
@@ -41,12 +43,13 @@ class Sleepers:
 
     def drive_undisturbed(self) -> None:
         """See that commands go on without a gap, for a while."""
-        since = time.monotonic()
-        time.sleep(DRIVES)
-        times = [since, *(at for at, _ in self.bench.witness.motions if at > since), time.monotonic()]
-        gaps = [later - earlier for earlier, later in pairwise(times)]
-        assert max(gaps) < LONGEST_GAP
-        assert not [at for at in self.bench.witness.rests if at > since]
+        with excusable(LONGEST_GAP / 2, self.bench.rig):
+            since = time.monotonic()
+            time.sleep(DRIVES)
+            times = [since, *(at for at, _ in self.bench.witness.motions if at > since), time.monotonic()]
+            gaps = [later - earlier for earlier, later in pairwise(times)]
+            assert max(gaps) < LONGEST_GAP
+            assert not [at for at in self.bench.witness.rests if at > since]
 
     def nothing_went_wrong(self) -> None:
         assert not self.bench.witness.stale
@@ -100,10 +103,9 @@ def test_who_joins_with_a_wrong_time_of_day_drives(tmp_path: Path, day: float) -
 def test_a_robot_that_slept_rests_until_it_is_begun_anew(both: Sleepers) -> None:
     both.bench.signal_robot(signal.SIGSTOP)
     both.robot.set(start=HOUR)
-    woken = time.monotonic()
+    deadline = Deadline(both.bench.rig)
     both.bench.signal_robot(signal.SIGCONT)
-    until(lambda: both.bench.at_rest, "neutral after it woke")
-    assert time.monotonic() - woken <= WAKES + LONGEST_GAP
+    deadline.met(lambda: both.bench.at_rest, "neutral after it woke", WAKES)
     both.rest_until_begun_anew()
     both.nothing_went_wrong()
 
@@ -116,10 +118,9 @@ def test_a_sleep_too_short_to_be_seen_in_its_own_steps_changes_nothing(both: Sle
 
 def sleep(both: Sleepers, seconds: float) -> None:
     """Let the operator's machine sleep: its processes stand still, and its clock knows for how long."""
+    deadline, began = Deadline(both.bench.rig), time.monotonic()
     both.bench.operator.signal(signal.SIGSTOP)
-    began = time.monotonic()
-    until(lambda: both.bench.at_rest, "neutral while the operator sleeps")
-    assert time.monotonic() - began <= 0.45 + LONGEST_GAP
+    deadline.met(lambda: both.bench.at_rest, "neutral while the operator sleeps", SILENCE)
     time.sleep(max(0.0, began + seconds - time.monotonic()))
     both.operator.set(start=HOUR)
     both.bench.operator.signal(signal.SIGCONT)
@@ -145,6 +146,7 @@ def test_clocks_that_are_set_are_seen_by_their_own_machine_alone(tmp_path: Path)
     clocks = Clocks(tmp_path, "some")
     clocks.set(day=-1.5 * HOUR, start=HOUR + 0.25)
     program = "import time; print(time.time(), time.clock_gettime(time.CLOCK_BOOTTIME), time.monotonic())"
+    before = time.time(), time.clock_gettime(time.CLOCK_BOOTTIME), time.monotonic()
     said = subprocess.run(
         [sys.executable, "-c", program],
         env=os.environ | clocks.environment,
@@ -152,7 +154,7 @@ def test_clocks_that_are_set_are_seen_by_their_own_machine_alone(tmp_path: Path)
         text=True,
         check=True,
     )
-    day, start, monotonic = map(float, said.stdout.split())
-    assert day == pytest.approx(time.time() - 1.5 * HOUR, abs=2.0)
-    assert start == pytest.approx(time.clock_gettime(time.CLOCK_BOOTTIME) + HOUR + 0.25, abs=2.0)
-    assert monotonic == pytest.approx(time.monotonic(), abs=2.0)
+    after = time.time(), time.clock_gettime(time.CLOCK_BOOTTIME), time.monotonic()
+    shifted = (-1.5 * HOUR, HOUR + 0.25, 0.0)
+    for then, found, now, shift in zip(before, map(float, said.stdout.split()), after, shifted, strict=True):
+        assert then <= found - shift <= now

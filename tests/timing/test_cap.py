@@ -4,14 +4,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from rig import NEUTRAL, Process, Rig, Watch, hear, until
+from verdict import excusable
 
 from zteleop.chaos.cable import Cable
 from zteleop.messages import DriveStatus
 
 FULL = "{linear: {x: 3.0}}"
 FULL_TICKS = 500
-BUSY = 40.0
-"""s of patience with a machine so busy that it is late itself; each time costs speed for 5 s."""
 LATE = 0.09
 """s each way: a command is then 0.18 s old, and as much older as its beat was when it was made."""
 
@@ -36,11 +35,12 @@ def settled(status: DriveStatus) -> bool:
 def test_a_good_link_is_not_slowed_down(rig: Rig) -> None:
     rig.actuator()
     statuses = rig.node().subscription("drive_status", DriveStatus)
-    drive(rig)
-    until(lambda: rig.ticks == (NEUTRAL[0], FULL_TICKS), "full throttle", BUSY)
-    said = hear(statuses, settled, "full speed")
-    assert (said.max_speed, said.slowed) == (3.0, "")
-    assert 0 < said.latency < 0.15
+    with excusable(0.05, rig):
+        drive(rig)
+        until(lambda: rig.ticks == (NEUTRAL[0], FULL_TICKS), "full throttle")
+        said = hear(statuses, settled, "full speed")
+        assert (said.max_speed, said.slowed) == (3.0, "")
+        assert 0 < said.latency < 0.15
     assert "m/s: commands of keyboard are up to" in rig.result("why", *rig.bus_options()).stdout
 
 
@@ -48,10 +48,11 @@ def test_a_late_link_is_driven_slower_and_says_why(rig: Rig) -> None:
     rig.actuator()
     statuses = rig.node().subscription("drive_status", DriveStatus)
     with late_link(rig.port) as port, Watch(rig) as watch:
-        program = drive(rig, port)
-        said = hear(statuses, settled, "as fast as it may")
-        assert 1.5 <= said.max_speed < 2.85
-        assert 2 * LATE < said.latency <= 0.3
+        with excusable(0.05, rig):
+            program = drive(rig, port)
+            said = hear(statuses, settled, "as fast as it may")
+            assert 1.5 <= said.max_speed < 2.85
+            assert 2 * LATE < said.latency <= 0.3
         assert said.slowed.startswith("commands of keyboard are up to ")
         why = rig.result("why", *rig.bus_options()).stdout
         assert " of 3 m/s: commands of keyboard are up to " in why

@@ -1,0 +1,172 @@
+"""The meter can tell waiting from working, and a run of tests does what its verdicts say."""
+
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+from rig import PATIENCE
+
+from zteleop.chaos.waiting import Meter
+
+TESTS = Path(__file__).parents[1]
+CORE = min(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else 0
+WORKS = "import time\nend = time.process_time() + 0.3\nwhile time.process_time() < end: pass"
+SLEEPS = "import time; time.sleep(0.5)"
+SPINS = "print('spins', flush=True)\nwhile True: pass"
+
+
+def on_one_core(text: str, **options: object) -> "subprocess.Popen[bytes]":
+    command = [sys.executable, "-c", f"import os; os.sched_setaffinity(0, [{CORE}])\n{text}"]
+    return subprocess.Popen(command, **options)  # type: ignore[call-overload]
+
+
+@contextmanager
+def busy_core(times: int) -> Iterator[None]:
+    spinners = [on_one_core(SPINS, stdout=subprocess.PIPE) for _ in range(times)]
+    try:
+        for spinner in spinners:
+            assert spinner.stdout
+            assert spinner.stdout.readline() == b"spins\n"
+        yield
+    finally:
+        for spinner in spinners:
+            spinner.kill()
+            spinner.communicate()
+
+
+def took_and_waited(text: str) -> tuple[float, float]:
+    """Return for how long a process ran, and for how much of it it waited."""
+    began = time.monotonic()
+    with on_one_core(text) as process:
+        meter = Meter(lambda: [process.pid])
+        while process.poll() is None:
+            meter.glance()
+            time.sleep(0.005)
+        return time.monotonic() - began, meter.waited
+
+
+def test_whoever_shares_a_core_is_seen_to_wait() -> None:
+    with busy_core(3):
+        took, waited = took_and_waited(WORKS)
+    assert waited > 0.5 * (took - 0.3) > 0
+
+
+def test_whoever_sleeps_beside_them_is_not() -> None:
+    with busy_core(3):
+        took, waited = took_and_waited(SLEEPS)
+    assert took - waited >= 0.45
+
+
+CONFTEST = """
+from judging import *
+import judging
+judging.await_quiet = lambda patience: print("waits for quiet")
+"""
+TEST = """
+import pytest
+from verdict import NotJudged, excusable, judged
+
+TRIED = []
+
+{tests}
+"""
+OTHERS = """
+@pytest.mark.timing
+@pytest.mark.parametrize("number", range(30))
+def test_other(number):
+    judged(0.05, 0.1, 0.0)
+"""
+
+
+@pytest.fixture
+def run(tmp_path: Path) -> "Run":
+    return Run(tmp_path)
+
+
+class Run:
+    """Runs tests of a test's own, as often as wanted, with one ledger."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        (folder / "conftest.py").write_text(CONFTEST)
+        (folder / "pytest.ini").write_text("[pytest]\nmarkers = timing: a duration\n")
+
+    def __call__(self, tests: str, others: str = OTHERS) -> tuple[int, str]:
+        (self.folder / "test_it.py").write_text(TEST.format(tests=tests + others))
+        environment = {
+            **os.environ,
+            "PYTHONPATH": f"{TESTS}:{TESTS.parent}",
+            "XDG_CACHE_HOME": str(self.folder / "cache"),
+        }
+        command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "-sv", "test_it.py"]
+        done = subprocess.run(
+            command, cwd=self.folder, env=environment, capture_output=True, text=True, timeout=PATIENCE
+        )
+        return done.returncode, done.stdout + done.stderr
+
+
+def timing(body: str, name: str = "test_it") -> str:
+    return f"@pytest.mark.timing\ndef {name}():\n    TRIED.append(1)\n    {body}\n"
+
+
+def test_a_stall_is_tried_again_told_and_closes_nothing(run: Run) -> None:
+    code, text = run(timing("judged(0.3, 0.1, 0.25)"))
+    assert code == 0, text
+    assert text.count("waits for quiet") == 2
+    assert "NOT JUDGED test_it.py::test_it: 0.3000 s of at most 0.1000" in text
+    assert "1 tests not judged, longest wait for a core 0.250 s" in text
+
+
+def test_a_claim_that_can_be_judged_the_second_time_is(run: Run) -> None:
+    code, text = run(timing("judged(0.3, 0.1, 0.25) if len(TRIED) < 2 else judged(0.05, 0.1, 0.0)"))
+    assert (code, text.count("waits for quiet"), "NOT JUDGED" in text) == (0, 1, False), text
+    code, text = run(timing("judged(0.3, 0.1, 0.25) if len(TRIED) < 2 else judged(0.3, 0.1, 0.0)"))
+    assert (code, text.count("waits for quiet"), "NOT JUDGED" in text) == (1, 1, False), text
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "judged(0.3, 0.1, 0.1)",  # 0.2 s late, and 0.1 of it is nobody else's
+        "judged(1.2, 0.1, 5.0)",  # ten times the bound
+        "judged(0.01, 0.1, 0.0, not_before=0.05)",
+        "assert False",
+    ],
+)
+def test_what_the_machine_does_not_explain_fails_at_once(run: Run, body: str) -> None:
+    code, text = run(timing(body))
+    assert (code, text.count("waits for quiet")) == (1, 0), text
+
+
+def test_what_a_machine_alone_can_break_is_excused_only_by_it(run: Run) -> None:
+    busy = "with excusable({slack}):\n        assert False"
+    code, text = run(timing(busy.format(slack=-1.0)))
+    assert (code, "NOT JUDGED" in text) == (0, True), text
+    code, text = run(timing(busy.format(slack=9.0)))
+    assert (code, "NOT JUDGED" in text) == (1, False), text
+
+
+def test_too_many_without_a_verdict_close_the_gate(run: Run) -> None:
+    tests = "".join(timing("judged(0.3, 0.1, 0.25)", f"test_{number}") for number in "ab")
+    code, text = run(tests)
+    assert code == 1
+    assert "too many claims of time could not be judged: 2 of 32 tests" in text
+
+
+def test_one_that_is_never_judged_closes_it_in_the_third_run(run: Run) -> None:
+    stuck, well = timing("judged(0.3, 0.1, 0.25)"), timing("judged(0.05, 0.1, 0.0)")
+    assert [run(tests)[0] for tests in (stuck, stuck, well, stuck, stuck)] == [0, 0, 0, 0, 0]
+    code, text = run(stuck)
+    assert code == 1
+    assert "test_it.py::test_it in 3 runs in a row" in text
+
+
+def test_claims_of_time_run_last(run: Run) -> None:
+    code, text = run(timing("pass", "test_first") + "def test_second(): pass\n", others="")
+    assert code == 0
+    assert text.index("test_second PASSED") < text.index("test_first PASSED")
