@@ -7,47 +7,55 @@ robot at rest must not wait for either. So a thread writes, and what it cannot w
 import os
 import sys
 import threading
+import time
 from collections import deque
+from queue import SimpleQueue
 
 LINES = 200
 """that may wait; the oldest are lost first"""
+_GLANCE = 0.001
 
 
 class Voice:
-    """Writes lines to a file descriptor, from a thread of its own that is started by the first."""
+    """Writes lines to a file descriptor, from one thread of its own.
+
+    Whoever speaks may step a robot at real-time priority, and the thread that writes is an ordinary one: so
+    speaking takes no lock, and starts no thread but once. Either would be a priority inversion, which lasts
+    for as long as the machine is busy with something else.
+    """
 
     def __init__(self, file: int) -> None:
         self._file = file
         self._lines: deque[str] = deque(maxlen=LINES)
-        self._more = threading.Condition()
+        self._bell: SimpleQueue[None] = SimpleQueue()
+        self._thread: threading.Thread | None = None
         self._writing = False
 
     def say(self, line: str) -> None:
-        with self._more:
-            self._lines.append(line)
-            if not self._writing:
-                self._writing = True
-                threading.Thread(target=self._write, daemon=True).start()
+        self._lines.append(line)
+        if self._bell.empty():  # else it has yet to come for this line as well
+            self._bell.put(None)
+        if self._thread is None:
+            self._thread = threading.Thread(target=self._write, name="voice", daemon=True)
+            self._thread.start()
 
     def flush(self, patience: float) -> None:
         """Wait until all is written, at most for some seconds."""
-        with self._more:
-            self._more.wait_for(lambda: not self._writing, patience)
+        give_up = time.monotonic() + patience
+        while (self._lines or self._writing) and time.monotonic() < give_up:
+            time.sleep(_GLANCE)
 
     def _write(self) -> None:
-        while line := self._next():
-            try:
-                os.write(self._file, line.encode(errors="replace") + b"\n")
-            except OSError:
-                continue  # nobody will ever read it
-
-    def _next(self) -> str | None:
-        with self._more:
-            if self._lines:
-                return self._lines.popleft() or " "
+        while True:
+            self._bell.get()
+            self._writing = True
+            while self._lines:
+                line = self._lines.popleft() or " "
+                try:
+                    os.write(self._file, line.encode(errors="replace") + b"\n")
+                except OSError:
+                    continue  # nobody will ever read it
             self._writing = False
-            self._more.notify_all()
-            return None
 
 
 _voice = Voice(2)

@@ -1,6 +1,7 @@
 """With real pipes: what matters is what the kernel does when nobody reads."""
 
 import os
+import threading
 import time
 
 from zteleop.bus.voice import LINES, Voice
@@ -39,3 +40,18 @@ def test_a_reader_that_is_gone_is_no_error() -> None:
     voice.say("nobody hears this")
     voice.flush(1.0)
     os.close(mouth)
+
+
+def test_all_its_lines_are_written_by_one_thread_that_is_started_once() -> None:
+    ear, mouth = os.pipe()
+    voice = Voice(mouth)
+    voice.say("one")
+    voice.flush(1.0)
+    thread = voice._thread
+    before = threading.active_count()
+    for _ in range(3):
+        voice.say("more")
+        voice.flush(1.0)
+    assert (voice._thread, threading.active_count()) == (thread, before)
+    assert os.read(ear, 100).split() == [b"one", b"more", b"more", b"more"]
+    os.close(ear)
