@@ -54,7 +54,7 @@ class Bench:
 
     def file(self, reason: str) -> list[dict[str, Any]]:
         """Wait for a file; return its lines."""
-        until(lambda: self.files(reason), f"a black box because of {reason}", 15.0)
+        until(lambda: self.files(reason), f"a black box because of {reason}")
         return [json.loads(line) for line in gzip.open(self.files(reason)[0])]
 
     def told(self, *arguments: str) -> str:
