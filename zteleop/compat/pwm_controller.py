@@ -6,6 +6,7 @@ It is a program as any other: after 0.5 s without a call the channel is neutral 
 from functools import cache
 from weakref import WeakKeyDictionary
 
+from zteleop.bus import voice
 from zteleop.bus.node import Node
 from zteleop.bus.publisher import Publisher
 from zteleop.drivers.registers import prescale, tick_us
@@ -67,6 +68,7 @@ def _join(node: Node) -> Pair:
     pwms = node.publisher("pwm", Pwm)
     heard = node.heard()
     if not node.until(lambda: heard.beat and heard.vehicle and pwms.matched, PATIENCE):
+        voice.flush()  # what the log said of it comes first, and the error is the last word
         raise BusError(f"robot {node.robot} does not answer; start zteleop actuator first")
     assert heard.vehicle
     return Pair(pwms, heard.vehicle)
