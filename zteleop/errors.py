@@ -9,6 +9,11 @@
 Each message says what was expected, what was found and what to do.
 """
 
+from collections.abc import Iterable
+
+_SHOWN = 20
+"""names that are told when none is near"""
+
 
 class ZteleopError(Exception):
     """The command line prints these in one sentence, without a traceback."""
@@ -28,3 +33,21 @@ class BusError(ZteleopError, OSError):
 
 class DeviceError(ZteleopError, OSError):
     """A chip, an I2C bus or a terminal is missing, busy or silent."""
+
+
+def nearest(name: str, known: Iterable[str]) -> str:
+    """Return what somebody may have meant, as the end of a sentence: the nearest names, else all."""
+    from difflib import get_close_matches
+
+    names = sorted(set(known))
+    ends = get_close_matches(_end(name), {_end(one) for one in names}, 3, 0.6)
+    alike = [one for one in names if _end(one) in ends]  # whatever stands before it
+    near = get_close_matches(name, alike, 3, 0.0) or get_close_matches(name, names, 3, 0.6)
+    if near:
+        return f"did you mean {' or '.join(near)}?"
+    more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
+    return f"known: {', '.join(names[:_SHOWN]) or 'none'}{more}"
+
+
+def _end(name: str) -> str:
+    return name.rpartition("/")[2]

@@ -203,7 +203,7 @@ def test_pub_says_it_so_many_times(rig: Rig) -> None:
 @pytest.mark.parametrize(
     ("kind", "values", "words"),
     [
-        ("Twits", "{}", ["no message type 'Twits'", "did you mean Twist"]),
+        ("Twits", "{}", ["no message type 'Twits'", "did you mean geometry_msgs/msg/Twist"]),
         ("Twist", "{linear: {x: 1", ["expected YAML such as"]),
         ("Twist", "{linaer: {x: 1}}", ["Twist has no field 'linaer'", "did you mean linear?"]),
         ("Twist", "{linear: {x: fast}}", ["Expected `float`, got `str`", "$.linear.x"]),

@@ -1,6 +1,6 @@
 import pytest
 
-from zteleop.errors import BusError, ConfigError, DeviceError, MessageError, ZteleopError
+from zteleop.errors import BusError, ConfigError, DeviceError, MessageError, ZteleopError, nearest
 
 
 @pytest.mark.parametrize(
@@ -18,3 +18,21 @@ def test_each_error_is_ours_and_the_builtin_that_an_except_would_name(
 def test_no_error_is_another() -> None:
     kinds = (ConfigError, MessageError, BusError, DeviceError)
     assert not any(issubclass(a, b) for a in kinds for b in kinds if a is not b)
+
+
+@pytest.mark.parametrize(
+    ("name", "known", "words"),
+    [
+        ("odm", ["odom", "log"], "did you mean odom?"),
+        (
+            "x/msg/Twst",
+            ["geometry_msgs/msg/Twist", "std_msgs/msg/Bool"],
+            "did you mean geometry_msgs/msg/Twist?",
+        ),
+        ("xyz", ["b", "a", "a"], "known: a, b"),
+        ("xyz", [], "known: none"),
+        ("xyz", [f"{n:02}" for n in range(23)], "19 and 3 more"),
+    ],
+)
+def test_the_nearest_names_are_told_else_some_that_are_known(name: str, known: list[str], words: str) -> None:
+    assert nearest(name, known).endswith(words)

@@ -77,3 +77,27 @@ class TwistWithCovariance(Message):
 
     twist: Twist
     covariance: Covariance
+
+
+class PoseStamped(Message):
+    ros_type: ClassVar[str] = "geometry_msgs/msg/PoseStamped"
+
+    header: Header
+    pose: Pose
+
+
+class Transform(Message):
+    ros_type: ClassVar[str] = "geometry_msgs/msg/Transform"
+
+    translation: Vector3
+    rotation: Quaternion
+
+
+class TransformStamped(Message):
+    """Where `child_frame_id` is, in `header.frame_id`."""
+
+    ros_type: ClassVar[str] = "geometry_msgs/msg/TransformStamped"
+
+    header: Header
+    child_frame_id: str
+    transform: Transform

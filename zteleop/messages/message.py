@@ -35,6 +35,8 @@ def zero_of(kind: Any) -> Any:
     if origin is Annotated:
         inner, *metas = arguments
         length = next((m.min_length for m in metas if isinstance(m, Meta) and m.min_length), 0)
+        if inner is bytes:
+            return bytes(length)
         return [zero_of(get_args(inner)[0]) for _ in range(length)] if length else zero_of(inner)
     if origin is Literal:
         return arguments[0]

@@ -37,12 +37,13 @@ def values_of(annotation: Any) -> st.SearchStrategy[Any]:
     origin, arguments = get_origin(annotation), get_args(annotation)
     if origin is Annotated and get_origin(arguments[0]) is list:
         (item,), meta = get_args(arguments[0]), arguments[1]
-        return st.lists(values_of(item), min_size=meta.min_length, max_size=meta.min_length)
+        return st.lists(values_of(item), min_size=meta.min_length or 0, max_size=meta.max_length)
     if origin is Annotated:
         metas = [meta for meta in arguments[1:] if isinstance(meta, Meta)]
         if arguments[0] is str:
             return st.text(max_size=min(meta.max_length for meta in metas))
-        return st.integers(metas[0].ge, metas[0].lt - 1)
+        most = metas[0].lt - 1 if metas[0].lt is not None else metas[0].le
+        return st.integers(metas[0].ge, 2**63 if most is None else most)
     if origin is list:
         return st.lists(values_of(arguments[0]), max_size=3)
     if origin is Literal:
@@ -55,6 +56,7 @@ def values_of(annotation: Any) -> st.SearchStrategy[Any]:
         int: st.integers(0, 2**53 - 1),
         bool: st.booleans(),
         str: st.text(max_size=8),
+        bytes: st.binary(max_size=8),
     }
     return plain[annotation]
 

@@ -13,6 +13,7 @@ KEYWORDS = {
     "$schema",
     "additionalProperties",
     "anyOf",
+    "contentEncoding",
     "default",
     "maxLength",
     "description",

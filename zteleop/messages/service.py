@@ -1,0 +1,44 @@
+"""What is asked of a node and answered (std_srvs): two messages to a service, told apart by their ends."""
+
+from typing import ClassVar
+
+from zteleop.messages.message import Message
+
+REQUEST, RESPONSE = "_Request", "_Response"
+
+
+def is_half(ros_type: str) -> bool:
+    """Say whether a message is one of the two of a service."""
+    return ros_type.endswith((REQUEST, RESPONSE))
+
+
+class EmptyRequest(Message):
+    ros_type: ClassVar[str] = "std_srvs/srv/Empty_Request"
+
+
+class EmptyResponse(Message):
+    ros_type: ClassVar[str] = "std_srvs/srv/Empty_Response"
+
+
+class TriggerRequest(Message):
+    ros_type: ClassVar[str] = "std_srvs/srv/Trigger_Request"
+
+
+class TriggerResponse(Message):
+    ros_type: ClassVar[str] = "std_srvs/srv/Trigger_Response"
+
+    success: bool
+    message: str
+
+
+class SetBoolRequest(Message):
+    ros_type: ClassVar[str] = "std_srvs/srv/SetBool_Request"
+
+    data: bool
+
+
+class SetBoolResponse(Message):
+    ros_type: ClassVar[str] = "std_srvs/srv/SetBool_Response"
+
+    success: bool
+    message: str
