@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from functools import cache
 from typing import Annotated, Any, ClassVar, Literal, Self, get_args, get_origin, get_type_hints
 
+import msgspec
 from msgspec import Meta, Struct
 
 
@@ -20,6 +21,11 @@ class Message(Struct):
     def zero(cls) -> Self:
         """Return the message with every number 0, every text and list empty."""
         return cls(**{name: zero_of(kind) for name, kind in field_types(cls).items()})
+
+
+def plain(value: Any) -> Any:
+    """Return a message, or a part of one, as dicts, lists, numbers and texts; bytes stay bytes."""
+    return msgspec.to_builtins(value, builtin_types=(bytes,))
 
 
 @cache
