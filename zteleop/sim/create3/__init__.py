@@ -1,0 +1,1 @@
+"""An iRobot Create 3, part by part."""
