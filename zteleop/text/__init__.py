@@ -1,0 +1,1 @@
+"""How messages and values are written, and read back."""
