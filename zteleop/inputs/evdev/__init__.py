@@ -1,0 +1,1 @@
+"""Linux event devices: keyboards and pads as the kernel has them, with every release."""

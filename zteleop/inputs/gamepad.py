@@ -1,0 +1,167 @@
+"""A pad as a stick that counts only while its dead-man button is held."""
+
+from typing import Literal, Self
+
+from zteleop.control.stick import Speeds, Stick
+from zteleop.inputs.gamepad_map import FORGET, GamepadSettings, Moved, Pads, rescale
+from zteleop.messages import Vehicle
+
+RELEASE_HELD = 1.0
+"""s that the button is held to end a stop: a thumb that slips ends none"""
+
+
+class Gamepad:
+    """Whichever pad there is.
+
+    After a start, another pad, a stop or a lost link it counts once the sticks rest and the dead-man is up.
+    """
+
+    drive: Literal["step", "hold"] = "hold"
+
+    def __init__(
+        self, pads: Pads, settings: GamepadSettings | None = None, speeds: Speeds | None = None
+    ) -> None:
+        self.settings = settings or GamepadSettings()
+        self.finished = False
+        self.stop_wish: bool | None = None
+        self.silence = self.settings.silence
+        self._pads = pads
+        self._controls = self.settings.controls
+        self._speeds = speeds or Speeds()
+        self._fastest = self._speeds
+        self._at: dict[str, float] = {}
+        self._ready = self._silent = False
+        self._heard = float("-inf")
+        self._release_since: float | None = None
+
+    def __enter__(self) -> Self:
+        self._pads.__enter__()
+        return self
+
+    def __exit__(self, *exc: object) -> None:
+        self._at.clear()
+        self._pads.__exit__(*exc)
+
+    @property
+    def speeds(self) -> Speeds:
+        """What a full stick means: the robot's most while turbo is held."""
+        return self._fastest if self._is("turbo") else self._speeds
+
+    def fileno(self) -> int | None:
+        """Return what turns readable when a control moved; None where nothing does."""
+        return self._pads.fileno()
+
+    def fit(self, vehicle: Vehicle) -> None:
+        """Learn the limits of the robot driven."""
+        self._fastest = Speeds(vehicle.max_speed, vehicle.max_turn)
+        self.silence = min(self.settings.silence, vehicle.operator_silence)
+
+    def read(self, now: float) -> bool:
+        """Take in what moved, without blocking; True while the dead-man is held on a pad that is alive.
+
+        A pad tells of changes alone, so one out of reach looks like a steady hand: after `silence` without
+        a change it counts as let go.
+        """
+        if self._holding and now - self._heard >= self.silence:
+            self.reset(now)
+            self._silent = True
+        for moved in self._pads.read(now):
+            self._heard = now
+            self._take(moved, now)
+        self._look_at_release(now)
+        return self._holding
+
+    def stick(self, now: float) -> Stick:
+        """Return where the stick is; nobody holds it unless the dead-man, or turbo, is held."""
+        if not self._holding or now - self._heard >= self.silence:
+            return Stick()
+        forward, turn = (self._axis(use) for use in ("forward", "turn"))
+        return Stick(forward, turn, deadman=True)
+
+    def idle_left(self, now: float) -> float | None:
+        """Return the seconds until neutral unless the pad gives a sign of life; None when nobody holds it."""
+        return max(0.0, self.silence - (now - self._heard)) if self._holding else None
+
+    def reset(self, now: float) -> None:
+        """Go back to neutral; the dead-man must be let go and the sticks at rest before they count."""
+        self._ready = False
+        self._get_ready()
+
+    def stop_robot(self, now: float) -> None:
+        """Go neutral and ask for a stop that stays."""
+        self.stop_wish = True
+        self.reset(now)
+
+    @property
+    def words(self) -> str:
+        """What the operator must do to drive, or why he cannot, in a sentence."""
+        name, hold = self._pads.name, self._controls["deadman"].label
+        if not name:
+            return self._pads.trouble or "waiting for a gamepad: plug one in, or switch it on"
+        if missing := self._missing():
+            return f"{name} has no {missing}; zteleop gamepad --learn finds out what it has"
+        if self._ready:
+            return f"{name}: {self._help()}"
+        if self._silent:
+            return f"{name} has not moved for {self.silence:g} s; let go of everything, then hold {hold} anew"
+        return f"{name}: let go of {hold} and of the sticks before you drive"
+
+    @property
+    def _holding(self) -> bool:
+        return self._ready and self._is_enabled()
+
+    def _is_enabled(self) -> bool:
+        return self._is("deadman") or self._is("turbo")
+
+    def _is(self, use: str) -> bool:
+        return use in self._controls and self._controls[use].pressed(self._at)
+
+    def _axis(self, use: str) -> float:
+        return rescale(self._controls[use].of(self._at), self.settings.deadzone)
+
+    def _take(self, moved: Moved, now: float) -> None:
+        if moved == FORGET:
+            self._at.clear()
+            self._release_since = None
+            self.reset(now)
+            return
+        before = {use: self._is(use) for use in ("stop", "release")}
+        known = moved.name in self._at  # where it was found is no press
+        self._at[moved.name] = moved.value
+        pressed = {use for use, was in before.items() if known and not was and self._is(use)}
+        if "stop" in pressed:
+            self.stop_robot(now)
+        if "release" in pressed:
+            self._release_since = now
+        self._get_ready()
+
+    def _get_ready(self) -> None:
+        if self._ready or self._is_enabled() or not self._pads.name or self._missing():
+            return
+        if not self._axis("forward") and not self._axis("turn"):
+            self._ready, self._silent = True, False
+
+    def _look_at_release(self, now: float) -> None:
+        """Ask for the end of a stop once the button was held alone for a while."""
+        if self._is_enabled() or self._is("stop") or not self._is("release"):
+            self._release_since = None
+        elif self._release_since is not None and now - self._release_since >= RELEASE_HELD:
+            self._release_since = None
+            self.stop_wish = self.stop_wish or False
+
+    def _name(self, use: str) -> str | None:
+        return self._controls[use].name if use in self._controls else None
+
+    def _missing(self) -> str:
+        needed = (self._controls[use].name for use in ("forward", "turn", "deadman"))
+        return " and no ".join(dict.fromkeys(name for name in needed if name not in self._at))
+
+    def _help(self) -> str:
+        does = {"deadman": "to drive", "turbo": "for full speed"}
+        held = [f"hold {self._controls[use].label} {what}" for use, what in does.items() if self._has(use)]
+        stop = [f"{self._controls['stop'].label} stops the robot"] if self._has("stop") else []
+        release = [f"{self._controls['release'].label} held ends the stop"] if self._has("release") else []
+        return ", ".join([*held, *stop, *release])
+
+    def _has(self, use: str) -> bool:
+        return self._name(use) in self._at
