@@ -4,7 +4,8 @@
     ├── ConfigError  (ValueError)   a setting or an argument cannot be obeyed
     ├── MessageError (ValueError)   bytes are not the message their topic promises
     ├── BusError     (OSError)      the bus cannot be joined, or nobody answers
-    └── DeviceError  (OSError)      a chip, bus or terminal is missing, busy or silent
+    ├── DeviceError  (OSError)      a chip, bus or terminal is missing, busy or silent
+    └── RecordingError (OSError)    a file holds no recording, or none can be kept in it
 
 Each message says what was expected, what was found and what to do.
 """
@@ -33,6 +34,10 @@ class BusError(ZteleopError, OSError):
 
 class DeviceError(ZteleopError, OSError):
     """A chip, an I2C bus or a terminal is missing, busy or silent."""
+
+
+class RecordingError(ZteleopError, OSError):
+    """A file holds no recording, or none can be kept in it."""
 
 
 def nearest(name: str, known: Iterable[str]) -> str:

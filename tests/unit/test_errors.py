@@ -1,11 +1,25 @@
 import pytest
 
-from zteleop.errors import BusError, ConfigError, DeviceError, MessageError, ZteleopError, nearest
+from zteleop.errors import (
+    BusError,
+    ConfigError,
+    DeviceError,
+    MessageError,
+    RecordingError,
+    ZteleopError,
+    nearest,
+)
 
 
 @pytest.mark.parametrize(
     ("error", "builtin"),
-    [(ConfigError, ValueError), (MessageError, ValueError), (BusError, OSError), (DeviceError, OSError)],
+    [
+        (ConfigError, ValueError),
+        (MessageError, ValueError),
+        (BusError, OSError),
+        (DeviceError, OSError),
+        (RecordingError, OSError),
+    ],
 )
 def test_each_error_is_ours_and_the_builtin_that_an_except_would_name(
     error: type[ZteleopError], builtin: type[Exception]
@@ -16,7 +30,7 @@ def test_each_error_is_ours_and_the_builtin_that_an_except_would_name(
 
 
 def test_no_error_is_another() -> None:
-    kinds = (ConfigError, MessageError, BusError, DeviceError)
+    kinds = (ConfigError, MessageError, BusError, DeviceError, RecordingError)
     assert not any(issubclass(a, b) for a in kinds for b in kinds if a is not b)
 
 

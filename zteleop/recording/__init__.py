@@ -1,0 +1,1 @@
+"""What is kept: recordings as MCAP files, which every tool for robots opens."""
