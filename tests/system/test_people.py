@@ -39,9 +39,11 @@ def test_whoever_pressed_while_another_drove_moves_nothing_when_that_one_lets_go
     with repeating(lambda: second.repeat(RIGHT), 0.02):
         first.publish(Pwm(*NEUTRAL))
         stands(rig, NEUTRAL)
-        for _ in every(0.005, 100):
-            assert rig.ticks == NEUTRAL
         second.act()
+        for _ in every(0.005, 100):  # neither what was held, nor one more act of it
+            assert rig.ticks == NEUTRAL
+    second.publish(Pwm(*NEUTRAL))
+    with repeating(lambda: second.publish(RIGHT), 0.02):
         stands(rig, RIGHT_TICKS)
 
 

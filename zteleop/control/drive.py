@@ -56,6 +56,12 @@ class DriveSettings(Struct, frozen=True, forbid_unknown_fields=True):
         channels = [servo.channel for servo in self.servos.values()]
         if len(set(channels)) < len(channels):
             raise ValueError(f"each servo needs a channel of its own, found {channels}")
+        for name, source in self.sources.items():
+            if source.resume and source.trust != "arrival":
+                raise ValueError(f'resume is for trust = "arrival", found it at sources.{name}')
+
+
+LACKS_AN_ACT = (Refusal.OPERATOR_IDLE, Refusal.INTERRUPTED)
 
 
 class Refused(NamedTuple):
@@ -93,12 +99,14 @@ class Drive:
         self.settings = settings
         self.gate = Gate(settings.deadlines, epoch, now, grace)
         self._sources = settings.known_sources
-        self.mux = mux or Mux(self._sources, settings.deadlines.operator)
+        self.mux = mux or Mux(self._sources, settings.deadlines.operator, settings.deadlines.link_loss)
         self.cap = Cap(settings.cap, settings.limits.speed_of(settings.mixer), self._sources)
         self.refused = self.clamped = 0
         self.refusals: dict[str, Refused] = {}
         self.latch = Latch()
         self.holds = Holds()
+        self.interruption = ""
+        """What the last one was, in words."""
         self._gone: tuple[str, float] | None = None
         self._limiter = TwistLimiter(settings.limits, settings.mixer)
         self._wheel_limiter = WheelLimiter(settings.limits, settings.mixer, settings.servos)
@@ -107,9 +115,19 @@ class Drive:
         self._foreign_silence = FOREIGN_SILENCE - grace
         self._since = self._stepped = now
 
-    def late(self, now: float) -> bool:
-        """Say whether the robot itself was stopped since the last step."""
-        return now - self._stepped > self.settings.deadlines.late_step
+    def late(self, now: float) -> float:
+        """Return for how long the robot itself stood still since the last step, in seconds; else 0."""
+        gap = now - self._stepped
+        return gap if gap > self.settings.deadlines.late_step else 0.0
+
+    def interrupt(self, why: str, now: float, limit: float) -> None:
+        """End an interruption: whoever counted in the last `limit` s goes on with the next act.
+
+        What was said before counts for nothing, and whoever was not interrupted must begin anew.
+        """
+        self.gate.interrupt(now, limit)
+        self.mux.interrupt(now)
+        self.interruption, self._stepped = why, now
 
     def restart(self, epoch: int, now: float) -> None:
         """Forget every claim and begin a new epoch."""
@@ -123,6 +141,15 @@ class Drive:
         """Keep the robot at rest for a reason until `free`; nothing softens it."""
         self.holds.add(reason, state, why, now)
         self.mux.clear()
+
+    def pause(self, reason: str, state: State, why: str, now: float) -> None:
+        """Keep the robot at rest until `resume`, by an interruption that lets claims keep their place."""
+        self.holds.add(reason, state, why, now)
+
+    def resume(self, reason: str, why: str, now: float) -> None:
+        """End an interruption that began with `pause`."""
+        if self.holds.drop(reason):
+            self.interrupt(why, now, self.settings.deadlines.link_loss)
 
     def free(self, reason: str, now: float) -> None:
         """Drop a reason to rest; whoever drives next must leave neutral after now."""
@@ -151,6 +178,10 @@ class Drive:
             return self._refuse(source, Refusal.NO_SUCH_CHANNEL, now)
         moving = self._moves(command)
         unproven = proof is None and self._sources[source].trust == "arrival"
+        if unproven and moving and now - self.mux.interrupted <= self.settings.deadlines.max_age:
+            return self._refuse(
+                source, Refusal.INTERRUPTED, now
+            )  # nobody can prove that it is not from before
         if unproven:
             proof = self._vouch(source, moving, now)
         refusal = self._judge(source, command, proof, moving, now)
@@ -198,6 +229,8 @@ class Drive:
         if held := self.holds.strongest:
             return held.state, held.why
         newest = max(self.mux.claims, key=lambda claim: claim.at, default=None)
+        if newest and newest.at <= (end := self.mux.interrupted) and not self.mux.idle(newest, end):
+            return "link lost", f"{self.interruption}; {newest.source} goes on with its next act"
         if newest is None:
             return ("link lost", f"{self._gone[0]} is gone") if self._gone else ("idle", "nobody drives")
         silence = self._sources[newest.source].silence
@@ -211,8 +244,10 @@ class Drive:
     def _judge(
         self, source: str, command: Twist | Pwm, proof: Proof | None, moving: bool, now: float
     ) -> Refusal | None:
-        refusal = self.gate.judge(proof, moving, now)
+        refusal = self.gate.judge(proof, moving, now, self._sources[source].silence)
         if refusal or proof is None:
+            if proof and refusal in LACKS_AN_ACT and not self.holds:
+                self.gate.hear(proof, now)
             return refusal
         if not moving:
             self._gone = None  # a last neutral may arrive after the news of its sender's end
@@ -221,8 +256,11 @@ class Drive:
         if self.holds:
             return Refusal.AT_REST
         self._gone = None
-        claim = Claim(source, proof.sender, command, proof.acted, now, proof.seq, proof.beat)
-        return None if self.mux.offer(claim) else Refusal.HELD
+        claim = Claim(source, proof.sender, command, proof.acted, now, proof.seq, proof.beat, proof.began)
+        if not self.mux.offer(claim):
+            return Refusal.HELD
+        self.gate.count(proof, now)
+        return None
 
     def _measure(self, source: str, proof: Proof, beat: float, refusal: Refusal | None, now: float) -> None:
         """Note how old a command was; what cannot prove it counts as old as a command may be."""
@@ -242,7 +280,8 @@ class Drive:
     def _meet(self, source: str) -> Prover:
         """Make a foreign sender's prover; what it did before the start, nobody knows."""
         prover = self._foreign[source] = Prover(-len(self._foreign) - 1, self._foreign_silence)
-        prover.prove(None, True, self._since)
+        if not self._sources[source].resume:
+            prover.prove(None, True, self._since)
         return prover
 
     def _moves(self, command: Twist | Pwm) -> bool:

@@ -23,6 +23,8 @@ class Deadlines(Struct, frozen=True, forbid_unknown_fields=True):
     """of silence, after which only a new act from neutral drives again"""
     late_step: Annotated[float, Meta(gt=0.05, le=1)] = 0.2
     """between two steps, after which the robot knows it was stopped itself"""
+    stand_still: Annotated[float, Meta(gt=0.05, le=2)] = 0.5
+    """of `link_loss`, where the whole machine stood still and nobody watched the chip"""
 
 
 class Refusal(StrEnum):
@@ -34,7 +36,8 @@ class Refusal(StrEnum):
     STALE = "it is too old, or its sender no longer hears the robot"
     OPERATOR_IDLE = "its operator has not acted for too long"
     NOT_FROM_NEUTRAL = "it was moving before the robot started or the link came back; let go first, or pause"
-    HELD = "another sender drives this source, or did since the last act"
+    INTERRUPTED = "it was said before the robot went on; act once more"
+    HELD = "another sender drives this source, or did when this one began; let go, and begin anew"
     AT_REST = "the robot is kept at rest; let go, and begin anew when it is free"
     NO_SUCH_CHANNEL = "this vehicle has no steering and throttle; send a twist"
 
@@ -47,10 +50,24 @@ class Seen(Struct):
     at: float
     moving: bool
     floor: float
+    """A claim must have begun later, unless it has the right to go on."""
+    claim: float = NEVER
+    """When the claim that counted last began."""
+    counted: float = NEVER
+    """When it did."""
+    right: float = NEVER
+    """When the claim began that may go on after an interruption."""
+    resumed: float = NEVER
+    """When this sender was heard again; what it said, or did, before that counts for nothing."""
 
 
 class Gate:
     """Knows the present epoch and the last live command of each sender.
+
+    An interruption is whatever keeps the robot from obeying for a while: a lost link, a robot that is
+    deaf or stood still. It has one measure, the time since a command of a claim last counted. A claim
+    that was interrupted for no longer than `link_loss` has the right to go on, with what is said and
+    done after the end of it; any other must begin anew.
 
     With a grace, in seconds, it is a second opinion: where it cannot know better it lets pass.
     """
@@ -63,14 +80,40 @@ class Gate:
     def restart(self, epoch: int, now: float) -> None:
         """Forget every sender; what began before now is over."""
         self.epoch, self._floor, self._forgotten = epoch, now - self._grace, NEVER
+        self._resumed = NEVER
         self._senders.clear()
 
     def begin_after(self, now: float) -> None:
         """Count only claims that leave neutral later than now."""
         self._floor = max(self._floor, now - self._grace)
 
-    def judge(self, proof: Proof | None, moving: bool, now: float) -> Refusal | None:
-        """Return why a command is refused, or None when it counts."""
+    def interrupt(self, now: float, limit: float) -> None:
+        """End an interruption; claims that counted within `limit` seconds may go on, others begin anew."""
+        self._resumed = now - self._grace
+        self._forgotten = max(self._forgotten, self._resumed)
+        for seen in self._senders.values():
+            goes_on = seen.moving and now - seen.counted <= limit + self._grace
+            seen.right = seen.claim if goes_on else NEVER
+            seen.floor = max(seen.floor, self._resumed)
+
+    def grant(self, sender: int, began: float, counted: float) -> None:
+        """Know the claim of a sender that counted before this gate was made."""
+        self._senders[sender] = Seen(0, NEVER, counted, True, self._floor, began, counted)
+
+    def count(self, proof: Proof, now: float) -> None:
+        """Note that a command counted."""
+        if seen := self._senders.get(proof.sender):
+            seen.claim, seen.counted = proof.began, now
+
+    def hear(self, proof: Proof, now: float) -> None:
+        """Note a command of a claim that counted, and lacks nothing but an act: its link is whole."""
+        if (seen := self._senders.get(proof.sender)) and seen.claim == proof.began:
+            seen.counted = now
+
+    def judge(
+        self, proof: Proof | None, moving: bool, now: float, silence: float = float("inf")
+    ) -> Refusal | None:
+        """Return why a command is refused, or None when it counts; `silence` is its source's, in seconds."""
         if proof is None:
             return Refusal.UNPROVEN
         if proof.epoch != self.epoch:
@@ -80,24 +123,45 @@ class Gate:
             return Refusal.REPLAYED
         if not 0 <= now - proof.beat <= self._deadlines.max_age:
             return Refusal.STALE
-        floor = self._remember(proof, seen, moving, now)
+        seen = self._remember(proof, seen, moving, now, silence)
         if not moving:
             return None
         if not 0 <= now - proof.acted <= self._deadlines.operator:
             return Refusal.OPERATOR_IDLE
-        return None if floor < proof.began <= proof.acted else Refusal.NOT_FROM_NEUTRAL
+        if not self._may_begin(proof, seen):
+            return Refusal.NOT_FROM_NEUTRAL
+        resumed = max(self._resumed, seen.resumed)
+        return None if proof.beat > resumed and proof.acted > resumed else Refusal.INTERRUPTED
 
-    def _remember(self, proof: Proof, seen: Seen | None, moving: bool, now: float) -> float:
-        """Note a live command; return the time after which its claim must have begun."""
-        floor = seen.floor if seen else self._forgotten
-        heard = seen.at if seen and seen.moving else NEVER
-        loss = self._deadlines.link_loss + self._grace
-        if moving and now - max(heard, proof.began) > loss:  # it may have begun while nothing was heard
-            floor = max(floor, now - loss)
-        if now - heard > loss and not self._grace:
-            floor = max(floor, heard + loss)
-        self._senders[proof.sender] = Seen(proof.seq, proof.beat, now, moving, floor)
+    def _may_begin(self, proof: Proof, seen: Seen) -> bool:
+        """Say whether a claim began late enough, or goes on by right; no right outlives a release."""
+        goes_on = proof.began == seen.right
+        return self._floor < proof.began <= proof.acted and (goes_on or proof.began > seen.floor)
+
+    def _remember(self, proof: Proof, seen: Seen | None, moving: bool, now: float, silence: float) -> Seen:
+        """Note a live command, and what it may do after it was not heard for a while."""
+        before = seen or Seen(0, NEVER, NEVER, False, self._forgotten)
+        after = Seen(proof.seq, proof.beat, now, moving, before.floor, before.claim, before.counted)
+        if moving:  # letting go ends what a claim may
+            after.right, after.resumed = before.right, before.resumed
+        self._measure_loss(before, after, proof, silence)
+        self._senders[proof.sender] = after
         self._senders.move_to_end(proof.sender)
         if len(self._senders) > SENDERS:
-            self._forgotten = self._senders.popitem(last=False)[1].at - self._grace
-        return max(floor, self._floor)
+            self._forgotten = max(self._forgotten, self._senders.popitem(last=False)[1].at - self._grace)
+        return after
+
+    def _measure_loss(self, before: Seen, after: Seen, proof: Proof, silence: float) -> None:
+        """Take the right from what was not heard, or did not count, for too long."""
+        now, loss = after.at, self._deadlines.link_loss + self._grace
+        heard = before.at if before.moving else NEVER
+        if after.moving and now - max(heard, proof.began) > loss:  # it may have begun while nothing was heard
+            after.floor = max(after.floor, now - loss)
+        if self._grace:
+            return
+        counted = before.counted if before.moving and before.counted > NEVER else heard
+        for last in (heard, counted):
+            if now - last > loss:
+                after.floor, after.right = max(after.floor, last + loss), NEVER
+        if after.moving and proof.began <= heard < now - silence:  # the same claim, heard again
+            after.resumed = now

@@ -22,6 +22,8 @@ class Source(Struct, frozen=True, forbid_unknown_fields=True):
     """arrival: obey foreign senders that cannot prove the age of what they say"""
     max_speed: Annotated[float, Meta(gt=0)] | None = None
     """m/s"""
+    resume: bool = False
+    """With trust = "arrival": drive on after the robot's start without a pause, as no other sender may."""
 
 
 HEARD_LATE = 0.1
@@ -41,13 +43,15 @@ class Claim(NamedTuple):
     seq: int
     beat: float
     """The newest of the robot's that its sender had heard."""
+    began: float
 
 
 class Mux:
     """Keeps the claim of each source until it is let go."""
 
-    def __init__(self, sources: dict[str, Source], operator_silence: float) -> None:
-        self._sources, self._operator_silence = sources, operator_silence
+    def __init__(self, sources: dict[str, Source], operator_silence: float, link_loss: float = 2.0) -> None:
+        self._sources, self._operator_silence, self._link_loss = sources, operator_silence, link_loss
+        self.interrupted = NEVER
         self._ranked = sorted(sources, key=lambda name: -sources[name].priority)
         self._claims: dict[str, Claim] = {}
         self._waiting: dict[tuple[str, int], float] = {}
@@ -58,15 +62,18 @@ class Mux:
         return self._claims.values()
 
     def offer(self, claim: Claim) -> bool:
-        """Take a claim; False when another sender holds its source, or did since this one acted."""
+        """Take a claim; False when another sender holds its source, or did since this one began.
+
+        A holder that fell silent keeps the place for as long as it has the right to go on.
+        """
         holder = self._claims.get(claim.source)
-        if holder and holder.sender != claim.sender and not self.silent(holder, claim.at):
+        if holder and holder.sender != claim.sender and claim.at - holder.at <= self._link_loss:
             self._waiting[claim.source, claim.sender] = claim.at
             if len(self._waiting) > WAITING:
                 del self._waiting[next(iter(self._waiting))]
             return False
-        if claim.acted <= self._waiting.get((claim.source, claim.sender), NEVER):
-            return False  # a lever that was pulled meanwhile must not drive by itself once it may
+        if claim.began <= self._waiting.get((claim.source, claim.sender), NEVER):
+            return False  # what was held down meanwhile must not drive by itself once it may
         self._waiting.pop((claim.source, claim.sender), None)
         self._claims[claim.source] = claim
         return True
@@ -79,11 +86,19 @@ class Mux:
     def clear(self) -> None:
         self._claims.clear()
 
+    def interrupt(self, now: float) -> None:
+        """Obey nothing that was said up to now, and keep everybody's place."""
+        self.interrupted = now
+
     def select(self, now: float) -> Claim | None:
         """Return the claim to obey, or None when nobody may drive."""
         for name in self._ranked:
             claim = self._claims.get(name)
-            if claim and not self.silent(claim, now) and not self.idle(claim, now):
+            if (
+                claim
+                and claim.at > self.interrupted
+                and not (self.silent(claim, now) or self.idle(claim, now))
+            ):
                 return claim
         return None
 

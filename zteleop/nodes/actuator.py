@@ -35,6 +35,7 @@ DESCRIBE_EVERY = CHECK_EVERY = 0.2
 WATCHDOG_SILENCE = 0.45
 """s without a word of the watchdog until neutral and exit: 0.5 s since it froze at the latest."""
 DEAF = "deaf"
+UNHEARD = "the watchdog does not hear this robot on the bus"
 
 
 class Actuator:
@@ -57,7 +58,7 @@ class Actuator:
         self._drive = Drive(settings, driver.tick_us, _epoch(), self._since)
         self._output = Output(driver, self._drive, self._tell_chip)
         self._output.start(self._since)
-        self._drive.hold(DEAF, "starting", "the watchdog does not hear this robot on the bus", self._since)
+        self._drive.pause(DEAF, "starting", UNHEARD, self._since)
         if stop := stop_file.load():
             self._drive.stop(stop, self._since)
         self._watched = clock.now()
@@ -153,11 +154,24 @@ class Actuator:
             self._describe()
 
     def _notice_pause(self, now: float) -> None:
-        """Begin a new epoch when this process itself was stopped: what it knows is from before."""
-        if self._drive.late(now):
-            self._node.log.warn("this process was stopped for a while; whoever drove must let go first")
+        """Notice that this process itself stood still: what it has heard, and not read, is from before.
+
+        For a moment it is an interruption. Nobody watched the chip meanwhile, for a watchdog that could
+        has ended this process by then: so a longer one is a start, with a new epoch.
+        """
+        if not (late := self._drive.late(now)):
+            return
+        self._watched = now
+        words = f"this process stood still for {late:.2f} s"
+        limit = self._settings.deadlines.stand_still
+        if late <= limit:
+            self._node.log.warn(f"{words}; whoever drove goes on with the next act")
+            self._drive.interrupt(words, now, limit)
+        else:
+            self._node.log.warn(f"{words}; whoever drove must let go first")
             self._drive.restart(_epoch(), now)
-            self._since = self._watched = now
+            self._since = now
+        self._journal.event("interruption", why=words)
 
     def _hear_watchdog(self) -> None:
         words = self._link.read()
@@ -165,9 +179,9 @@ class Actuator:
         if words.stop:
             self._obey(words.stop)
         if words.hears:
-            self._drive.free(DEAF, now)
+            self._drive.resume(DEAF, "the watchdog did not hear this robot on the bus", now)
         elif words.hears is False:
-            self._drive.hold(DEAF, "starting", "the watchdog does not hear this robot on the bus", now)
+            self._drive.pause(DEAF, "starting", UNHEARD, now)
 
     def _obey(self, said: Stop) -> None:
         """Obey a stop or a release; the pulses first, the file and the words afterwards."""

@@ -122,7 +122,7 @@ FAULTS = (
     LinkFault("64 kbit/s", link(THIN), None, 4.0, "either", short=False),
     LinkFault("64 kbit/s, 20 Hz", link(THIN), None, 3.0, "either", rate=20, short=False),
     LinkFault("operator's address changes", roam, then="either", undo=nothing),
-    LinkFault("router killed", kill_router, undo=start_router, router=True),
+    LinkFault("router killed", kill_router, then="either", undo=start_router, router=True),
     LinkFault("robot restarted", stop_robot, 0.1, 0.0, undo=start_robot),
     LinkFault("operator restarted", kill_operator, lasts=0.5, then="drives", undo=start_operator),
     LinkFault("both restarted, robot first", kill_both, 0.1, 0.0, "drives", start_robot_first, short=False),

@@ -52,7 +52,8 @@ def test_silence_brings_neutral_at_once_and_commands_resume() -> None:
     step = robot.wait(0.3)
     assert (moves(step), step.state) == (False, "link lost")
     assert "keyboard has been silent for" in step.why
-    assert moves(robot.hold(FORWARD, 0.2, act=False))
+    assert not moves(robot.hold(FORWARD, 0.3, act=False))  # a lever asks for one more press
+    assert moves(robot.hold(FORWARD, 0.2))
 
 
 def test_after_a_long_silence_only_a_new_act_from_neutral_drives() -> None:
@@ -292,7 +293,7 @@ def test_a_foreign_sender_does_not_drive_on_when_the_robot_was_stopped_for_a_whi
     assert robot.drive.receive("nav", FORWARD, None, robot.now) is None
 
 
-def test_a_lever_pulled_while_another_drove_moves_nothing_until_it_acts_again() -> None:
+def test_a_lever_pulled_while_another_drove_moves_nothing_until_it_begins_anew() -> None:
     robot = Robot()
     robot.say(FORWARD, "a")
     assert robot.say(Pwm(390, 400), "b") is Refusal.HELD
@@ -301,6 +302,10 @@ def test_a_lever_pulled_while_another_drove_moves_nothing_until_it_acts_again() 
     for _ in range(10):
         assert robot.say(Pwm(390, 400), "b", act=False) is Refusal.HELD
         assert not moves(robot.wait(0.06))
+    for _ in range(10):
+        assert robot.say(Pwm(390, 400), "b") is Refusal.HELD
+        assert not moves(robot.wait(0.06))
+    robot.say(Pwm(375, 370), "b")
     assert robot.say(Pwm(390, 400), "b") is None
     assert moves(robot.wait(0.06))
 

@@ -233,7 +233,7 @@ def test_a_command_heard_before_the_release_it_follows_counts(robot: Watched) ->
 @pytest.mark.parametrize("pause", [0.31, 0.4, 0.55, 0.7])
 def test_a_second_sender_may_take_over_a_silent_ones_source(robot: Watched, pause: float) -> None:
     robot.say(FORWARD, "a", "program")
-    robot.wait(0.51)
+    robot.wait(2.02)
     assert robot.say(FORWARD, "b", "program") is None
     robot.wait(pause)
     robot.say(FORWARD, "b", "program")

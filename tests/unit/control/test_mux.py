@@ -4,8 +4,11 @@ from zteleop.messages import Twist
 SOURCES = {"web": Source(priority=100), "keyboard": Source(priority=90), "program": Source(50, silence=0.5)}
 
 
-def claim(source: str, at: float, sender: int = 1, acted: float | None = None) -> Claim:
-    return Claim(source, sender, Twist.planar(0.5), at if acted is None else acted, at, 1, at)
+def claim(
+    source: str, at: float, sender: int = 1, acted: float | None = None, began: float | None = None
+) -> Claim:
+    acted = at if acted is None else acted
+    return Claim(source, sender, Twist.planar(0.5), acted, at, 1, at, acted if began is None else began)
 
 
 def mux() -> Mux:
@@ -42,14 +45,34 @@ def test_an_idle_operator_yields() -> None:
     assert it.select(10.1) is None
 
 
-def test_within_a_source_the_holder_keeps_it_until_silent_or_let_go() -> None:
+def test_within_a_source_the_holder_keeps_it_until_lost_or_let_go() -> None:
     it = mux()
     it.offer(claim("keyboard", 1.0, sender=1))
     assert not it.offer(claim("keyboard", 1.1, sender=2))
-    assert it.offer(claim("keyboard", 1.31, sender=2))
+    assert not it.offer(claim("keyboard", 2.9, sender=2))  # the holder may come back, and go on
+    assert it.offer(claim("keyboard", 3.1, sender=2))
     it.release(2)
-    assert it.select(1.31) is None
-    assert it.offer(claim("keyboard", 1.32, sender=1))
+    assert it.select(3.1) is None
+    assert it.offer(claim("keyboard", 3.2, sender=1))
+
+
+def test_whoever_waited_begins_anew_although_he_acted_all_along() -> None:
+    it = mux()
+    it.offer(claim("keyboard", 1.0, sender=1))
+    assert not it.offer(claim("keyboard", 1.1, sender=2))
+    it.release(1)
+    assert not it.offer(claim("keyboard", 1.2, sender=2, acted=1.2, began=1.05))
+    assert it.offer(claim("keyboard", 1.3, sender=2, began=1.25))
+
+
+def test_what_was_said_before_an_interruption_ended_is_not_obeyed_and_keeps_its_place() -> None:
+    it = mux()
+    it.offer(claim("keyboard", 1.0, sender=1))
+    it.interrupt(1.2)
+    assert it.select(1.2) is None
+    assert not it.offer(claim("keyboard", 1.25, sender=2))
+    it.offer(claim("keyboard", 1.3, sender=1))
+    assert it.select(1.3)
 
 
 def test_letting_go_frees_only_ones_own() -> None:

@@ -40,11 +40,24 @@ def act_no_more(robot: Robot) -> None:
 
 
 def pause(robot: Robot) -> None:
-    """Stop the robot's own process for a while."""
-    robot.now += 0.5
+    """Stop the robot's own process for longer than a claim may outlive."""
+    robot.now += 0.6
     assert robot.drive.late(robot.now)
     robot.epoch += 1
     robot.drive.restart(robot.epoch, robot.now)
+
+
+def hiccup(robot: Robot) -> None:
+    """Stop the robot's own process for a moment."""
+    robot.now += 0.3
+    assert robot.drive.late(robot.now)
+    robot.drive.interrupt("it stood still", robot.now, 0.5)
+
+
+def act_again(robot: Robot) -> None:
+    for _ in range(2):  # the first tells the robot that it is heard again
+        robot.say(FORWARD)
+        robot.wait(0.02)
 
 
 def hold(state: State, robot: Robot) -> None:
@@ -57,6 +70,8 @@ def free(state: State, robot: Robot) -> None:
 
 EVENTS: dict[str, Callable[[Robot], object]] = {
     "press": press,
+    "act again": act_again,
+    "hiccup": hiccup,
     "say again": lambda robot: robot.say(FORWARD, act=False),
     "let go": lambda robot: robot.say(REST),
     "silence": fall_silent,
@@ -83,15 +98,20 @@ REACHED: dict[State, list[str]] = {
 STATES: tuple[State, ...] = tuple(REACHED)
 SAME = dict.fromkeys(EVENTS)
 CALLED: dict[str, State] = {"stop": "stopped", "fail": "fault", "arm": "starting", "pause": "idle"}
+AGAIN: dict[str, State] = {"press": "driving", "act again": "driving"}
 TABLE: dict[State, dict[str, State | None]] = {
-    "idle": SAME | CALLED | {"press": "driving", "say again": None, "act no more": "link lost"},
+    "idle": SAME | CALLED | AGAIN | {"say again": None, "act no more": "link lost"},
     "driving": SAME
     | CALLED
-    | {"let go": "idle", "silence": "link lost", "act no more": "operator idle", "depart": "link lost"},
-    "link lost": SAME
-    | CALLED
-    | {"press": "driving", "say again": "driving", "let go": "idle", "act no more": "operator idle"},
-    "operator idle": SAME | CALLED | {"press": "driving", "let go": "idle", "depart": "link lost"},
+    | {
+        "let go": "idle",
+        "silence": "link lost",
+        "hiccup": "link lost",
+        "act no more": "operator idle",
+        "depart": "link lost",
+    },
+    "link lost": SAME | CALLED | AGAIN | {"let go": "idle"},
+    "operator idle": SAME | CALLED | AGAIN | {"let go": "idle", "depart": "link lost"},
     "starting": SAME | CALLED | {"armed": "idle", "pause": None},
     "fault": SAME | CALLED | {"recover": "idle", "arm": None, "pause": None},
     "stopped": SAME | {"release": "idle"},
@@ -152,6 +172,8 @@ def test_a_long_walk_never_moves_what_may_not_move(record_property: Callable[[st
     assert world.moved > 20_000
     assert world.pressed > 1000
     assert world.obeyed == world.pressed, "a fresh press from neutral drives"
+    assert world.interrupted > 100
+    assert world.came_back == world.interrupted, "whoever was interrupted for a moment drives on"
 
 
 OFTEN = [name for name, (weight, _) in ACTS.items() for _ in range(ceil(weight**0.5))]
@@ -190,8 +212,8 @@ def lenient(*refusals: Refusal, drive: Drive) -> None:
     """Let pass what the gate refuses for these reasons."""
     judge = drive.gate.judge
 
-    def pass_by(proof: Proof | None, moving: bool, now: float) -> Refusal | None:
-        refusal = judge(proof, moving, now)
+    def pass_by(proof: Proof | None, moving: bool, now: float, silence: float) -> Refusal | None:
+        refusal = judge(proof, moving, now, silence)
         return None if refusal in refusals else refusal
 
     drive.gate.judge = pass_by
@@ -199,18 +221,16 @@ def lenient(*refusals: Refusal, drive: Drive) -> None:
 
 def any_epoch(drive: Drive) -> None:
     judge = drive.gate.judge
-    drive.gate.judge = lambda proof, moving, now: judge(
-        proof and proof._replace(epoch=drive.gate.epoch), moving, now
-    )
+    drive.gate.judge = lambda proof, *rest: judge(proof and proof._replace(epoch=drive.gate.epoch), *rest)
 
 
 def replays(drive: Drive) -> None:
     judge = drive.gate.judge
 
-    def forget(proof: Proof | None, moving: bool, now: float) -> Refusal | None:
+    def forget(proof: Proof | None, *rest: float) -> Refusal | None:
         if proof and (seen := drive.gate._senders.get(proof.sender)):
             seen.seq, seen.beat = -1, NEVER
-        return judge(proof, moving, now)
+        return judge(proof, *rest)
 
     drive.gate.judge = forget
 
@@ -249,20 +269,29 @@ def deaf_to_stops(drive: Drive) -> None:
 
 
 def no_long_loss(drive: Drive) -> None:
-    deadlines = drive.gate._deadlines
-    drive.gate = Gate(deadlines, drive.gate.epoch, drive._since)
-    remember = drive.gate._remember
+    drive.gate = Gate(drive.gate._deadlines, drive.gate.epoch, drive._since)
+    drive.gate._measure_loss = lambda *of_a_sender: None
 
-    def forgive(proof: Proof, seen: object, moving: bool, now: float) -> float:
-        remember(proof, seen, moving, now)
-        drive.gate._senders[proof.sender].floor = NEVER
-        return drive.gate._floor
 
-    drive.gate._remember = forgive
+def rights_for_all(drive: Drive) -> None:
+    interrupt = drive.gate.interrupt
+    drive.gate.interrupt = lambda now, limit: interrupt(now, float("inf"))
+
+
+def no_interruption(drive: Drive) -> None:
+    drive.gate.interrupt = lambda now, limit: None
+
+
+def rights_outlive_a_release(drive: Drive) -> None:
+    gate = drive.gate
+    gate._may_begin = lambda proof, seen: (
+        proof.began <= proof.acted
+        and (proof.began == seen.right or proof.began > max(seen.floor, gate._floor))
+    )
 
 
 def never_late(drive: Drive) -> None:
-    drive.late = lambda now: False
+    drive.late = lambda now: 0.0
 
 
 def claims_outlive_a_rest(drive: Drive) -> None:
@@ -290,6 +319,9 @@ DEFECTS: dict[str, tuple[Sabotage, bool]] = {
     "a command may be of any epoch": (any_epoch, True),
     "a command may be repeated": (replays, False),  # within the age it has, and the grace
     "no link is lost for long": (no_long_loss, True),
+    "every claim may go on after an interruption": (rights_for_all, False),
+    "interruptions end without a trace": (no_interruption, False),
+    "a right to go on outlives a release": (rights_outlive_a_release, False),
     "silence is not heard": (never_silent, True),
     "idle claims are chosen": (never_idle, False),
     "nobody must act": (nobody_must_act, True),

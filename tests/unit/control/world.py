@@ -26,7 +26,7 @@ SETTINGS = DriveSettings(
 )
 SILENCE = {"keyboard": 0.3, "gamepad": 0.3, "web": 0.3, "program": 0.5, "nav": 0.5}
 SENDERS = ("keyboard", "keyboard", "web", "gamepad", "program")
-MAX_AGE, OPERATOR, LINK_LOSS, LATE = 0.3, 5.0, 2.0, 0.2
+MAX_AGE, OPERATOR, LINK_LOSS, LATE, STAND_STILL = 0.3, 5.0, 2.0, 0.2, 0.5
 JUDGE_HEARS, JUDGE_LOOKS = 0.02, 0.05
 PRIORITY: tuple[State, ...] = ("stopped", "fault", "starting")
 
@@ -60,13 +60,23 @@ class Truth:
         self.claims: dict[int, tuple[Told, float]] = {}
         self.lost: dict[int, float] = {}
         self.dead: set[tuple[int, float]] = set()
-        """Claims that began and were not heard for too long."""
+        """Claims that began and were not heard, or did not count, for too long."""
+        self.counted: dict[tuple[int, float], float] = {}
+        """When a command of each claim last counted, or lacked nothing but an act."""
+        self.rights: set[tuple[int, float]] = set()
+        """Claims that an interruption left their right to go on."""
+        self.again: dict[tuple[int, float], float] = {}
+        """When each claim was heard again after its sender had fallen silent."""
         self.holds: dict[str, State] = {}
         self.start(epoch, now)
 
     def start(self, epoch: int, now: float) -> None:
         self.epoch, self.since, self.floor = epoch, now, now
+        self.interrupted = NEVER
         self.heard.clear()
+        self.counted.clear()
+        self.rights.clear()
+        self.again.clear()
         self.claims.clear()
         self.lost.clear()
         self.dead.clear()
@@ -79,6 +89,10 @@ class Truth:
         if self.holds.pop(reason, None):
             self.floor = now
 
+    def interrupt(self, now: float, limit: float) -> None:
+        self.interrupted = now
+        self.rights = {claim for claim, at in self.counted.items() if now - at <= limit}
+
     def hear(self, told: Told, now: float) -> None:
         """Note a command that arrived in time, in order, and from this start."""
         if told.epoch != self.epoch or not 0 <= now - told.beat <= MAX_AGE:
@@ -90,10 +104,17 @@ class Truth:
             self.lost[told.sender] = last.at + LINK_LOSS
         if told.moving and now - max(told.began, last.at if last and last.moving else NEVER) > LINK_LOSS:
             self.dead.add((told.sender, told.began))
+        claim = (told.sender, told.began)
+        if now - self.counted.get(claim, now) > LINK_LOSS:
+            self.dead.add(claim)
+        if last and last.moving and told.began <= last.at < now - SILENCE[told.source]:
+            self.again[claim] = now
         self.heard[told.sender] = Heard(told.number, told.moving, now)
         self.claims.pop(told.sender, None)
         if told.moving:
             self.claims[told.sender] = (told, now)
+            if not self.holds and self._may_begin(told):
+                self.counted[claim] = now
 
     def may_move(self, now: float) -> bool:
         return not self.holds and any(self._counts(*claim, now) for claim in self.claims.values())
@@ -102,9 +123,15 @@ class Truth:
         return (
             now - at <= SILENCE[told.source]
             and now - told.acted <= OPERATOR
-            and told.began > max(self.floor, self.lost.get(told.sender, NEVER))
-            and (told.sender, told.began) not in self.dead
+            and self._may_begin(told)
+            and min(told.beat, told.acted)
+            > max(self.interrupted, self.again.get((told.sender, told.began), NEVER))
         )
+
+    def _may_begin(self, told: Told) -> bool:
+        claim = (told.sender, told.began)
+        after = self.floor if claim in self.rights else max(self.floor, self.interrupted)
+        return told.began > max(after, self.lost.get(told.sender, NEVER)) and claim not in self.dead
 
     @property
     def state(self) -> State | None:
@@ -170,6 +197,8 @@ class World:
         self.steps = self.moved = self.refused = 0
         self.pressed = self.obeyed = 0
         """Fresh presses from neutral that nothing stood against, and how many of them drove."""
+        self.interrupted = self.came_back = 0
+        """Short interruptions of somebody who acts all along, and after how many of them it drove on."""
         self.trail: deque[tuple[float, str, object]] = deque(maxlen=60)
         self.wire: list[tuple[float, int, Told]] = []
         self.ear: list[tuple[float, int, Told]] = []
@@ -247,13 +276,18 @@ class World:
         self.unsafe = self.unsafe or f"at {self.now:.3f} {what}"
 
     def _notice_pause(self) -> None:
-        if self.now - self._stepped > LATE:
+        stood_still = self.now - self._stepped
+        if stood_still > STAND_STILL:
             self.truth.start(self.epoch + 1, self.now)
             self._foreign = (self.now, True, NEVER)
-        if self.drive.late(self.now):
+        elif stood_still > LATE:
+            self.truth.interrupt(self.now, STAND_STILL)
+        if (late := self.drive.late(self.now)) > STAND_STILL:
             self.epoch += 1
             self.drive.restart(self.epoch, self.now)
             self.judge.hear_report(self.epoch, self.now)
+        elif late:
+            self.drive.interrupt("it stood still", self.now, STAND_STILL)
         self._stepped = self.now
 
     def _arrive(self, told: Told) -> None:
@@ -347,7 +381,7 @@ class World:
             not truth.holds
             and beat is not None
             and beat.epoch == truth.epoch
-            and beat.time > max(truth.floor, truth.lost.get(sender.identity, NEVER))
+            and beat.time > max(truth.floor, truth.interrupted, truth.lost.get(sender.identity, NEVER))
             and self.now - beat.time <= MAX_AGE
             and all(told.source != sender.source for told in others)
         )
@@ -446,6 +480,16 @@ class World:
             self.drive.free(reason, self.now)
             self.truth.free(reason, self.now)
 
+    def _deaf(self, on: bool) -> None:
+        """The watchdog hears the robot on the bus, or does not."""
+        if on:
+            self.drive.pause("deaf", "starting", "", self.now)
+            self.truth.holds["deaf"] = "starting"
+        else:
+            self.drive.resume("deaf", "it was deaf", self.now)
+            if self.truth.holds.pop("deaf", None):
+                self.truth.interrupt(self.now, LINK_LOSS)
+
     def _restart(self, _: object) -> None:
         self.start_actuator()
 
@@ -473,7 +517,8 @@ ACTS: dict[str, tuple[float, tuple[object, ...]]] = {
     "release": (3, ("right", "right", "stale", "wrong")),
     "fault": (0.8, (True, False, False)),
     "arm": (0.8, (True, False, False)),
-    "pause": (0.3, (0.15, 0.21, 0.5, 3.0, 4 * 3600.0)),
+    "deaf": (0.2, (True, False, False)),
+    "pause": (0.4, (0.15, 0.21, 0.3, 0.45, 0.55, 3.0, 4 * 3600.0)),
     "restart": (0.3, (None,)),
     "reboot": (0.3, (0.05, 0.3, 0.6)),
 }
@@ -491,6 +536,8 @@ def walk(world: World, steps: int) -> None:
             _drive_well(world)
         if random.random() < 0.1:
             _keep_still(world)
+        if random.random() < 0.15:
+            _come_back(world)
 
 
 def _drive_well(world: World) -> None:
@@ -498,11 +545,31 @@ def _drive_well(world: World) -> None:
     who = world.random.choice(WHO)
     sender = world.senders[who]
     sender.speaks, sender.hears, sender.delay, sender.acts = True, True, 0.0, True
-    for name, argument in (("release", "right"), ("fault", False), ("arm", False), ("carry_on", 0.06)):
+    freed = (("release", "right"), ("fault", False), ("arm", False), ("deaf", False), ("carry_on", 0.06))
+    for name, argument in freed:
         world.do(name, argument)
     for name in ("let_go", "press"):
         world.do(name, who)
         world.do("carry_on", 0.06)
+
+
+def _come_back(world: World) -> None:
+    """Interrupt somebody who drives and acts all along, for a moment; nothing else happens meanwhile."""
+    _drive_well(world)
+    if world.do("carry_on", 0.06).state != "driving":
+        return
+    kind, seconds = world.random.choice((("pause", 0.25), ("pause", 0.4), ("deaf", 0.7), ("deaf", 1.7)))
+    if kind == "pause":
+        world.do("pause", seconds)
+    else:
+        world.do("deaf", True)
+        while seconds > 0:
+            seconds -= 0.06
+            world.do("carry_on", 0.06)
+        world.do("deaf", False)
+    states = [world.do("carry_on", 0.06).state for _ in range(4)]
+    world.interrupted += 1
+    world.came_back += "driving" in states
 
 
 def _keep_still(world: World) -> None:

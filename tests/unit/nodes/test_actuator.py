@@ -203,6 +203,36 @@ def test_a_watchdog_that_hears_no_longer_brings_rest(robot: Robot) -> None:
     assert (robot.status.state, robot.chip.pulses) == ("starting", NEUTRAL)
 
 
+def test_whoever_drove_before_the_watchdog_was_deaf_for_a_moment_drives_on(robot: Robot) -> None:
+    robot.say(PUSH)
+    robot.hear(Words(False, None))
+    for _ in range(60):
+        robot.say(PUSH)
+        robot.tick()
+        assert robot.chip.pulses == NEUTRAL
+    robot.hear(Words(True, None))
+    robot.tick()
+    robot.say(PUSH)
+    assert robot.chip.pulses != NEUTRAL
+
+
+def test_whoever_drove_before_it_was_deaf_for_long_begins_anew(robot: Robot) -> None:
+    robot.say(PUSH)
+    robot.hear(Words(False, None))
+    for _ in range(101):
+        robot.say(PUSH)
+        robot.tick()
+    robot.hear(Words(True, None))
+    for _ in range(10):
+        robot.tick()
+        robot.say(PUSH)
+        assert robot.chip.pulses == NEUTRAL
+    robot.say(Pwm(375, 370), moving=False)
+    robot.tick()
+    robot.say(PUSH)
+    assert robot.chip.pulses != NEUTRAL
+
+
 def test_while_the_esc_arms_it_is_starting(node: Node, clock: Clock) -> None:
     robot = Robot(node, clock, chip=Chip(arming=2.0))
     assert (robot.status.state, robot.status.why) == ("starting", "neutral for 2 s while the ESC arms")
@@ -418,16 +448,38 @@ def test_a_refused_command_is_said_with_its_reason(robot: Robot) -> None:
     assert robot.node.alarms[0].due == float("inf")
 
 
-def test_after_a_pause_of_its_own_it_begins_a_new_epoch(robot: Robot) -> None:
+def test_after_a_long_pause_of_its_own_it_begins_a_new_epoch(robot: Robot) -> None:
     robot.clock.pass_by(2 * AT_MOST_EVERY)
     robot.say(FORWARD)
     before = robot.beat.epoch
-    robot.clock.pass_by(0.25)
+    robot.clock.pass_by(0.55)
     robot.say(FORWARD, proof=robot.prover.prove(Beat(before, robot.clock.time), True, robot.clock.time))
     assert robot.beat.epoch != before
-    assert "this process was stopped for a while" in robot.node.warnings[0]
+    assert robot.node.warnings[0] == "this process stood still for 0.55 s; whoever drove must let go first"
     robot.tick()
     assert robot.chip.writes[-1] == NEUTRAL
+
+
+def test_after_a_short_one_whoever_drove_goes_on_with_the_next_act_and_not_before(robot: Robot) -> None:
+    robot.clock.pass_by(2 * AT_MOST_EVERY)
+    robot.say(PUSH)
+    beat = robot.beat
+    robot.clock.pass_by(0.25)
+    robot.say(PUSH, proof=robot.prover.prove(beat, True, robot.clock.time))
+    robot.tick()
+    assert robot.chip.pulses == NEUTRAL
+    assert robot.beat.epoch == beat.epoch
+    assert robot.node.warnings[0] == (
+        "this process stood still for 0.25 s; whoever drove goes on with the next act"
+    )
+    assert robot.status.why.startswith(
+        "this process stood still for 0.25 s; keyboard goes on with its next act"
+    )
+    assert ("interruption", {"why": "this process stood still for 0.25 s"}) in robot.journal.events
+    robot.tick()
+    robot.say(PUSH)
+    robot.tick()
+    assert robot.chip.pulses != NEUTRAL
 
 
 def test_a_step_that_is_a_little_late_is_no_pause(robot: Robot) -> None:

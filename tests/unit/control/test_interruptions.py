@@ -1,0 +1,248 @@
+"""What an interruption takes, and what it leaves: each case of the rule by its name, in virtual time.
+
+Up to 2 s since a command of a claim last counted, the claim keeps its right and its place; it drives on
+with the first command whose beat and act are later than the end. Longer, and it must begin anew.
+"""
+
+import pytest
+from unit.control.robot import FORWARD, REST, Robot, moves
+
+from zteleop.control.drive import DriveSettings
+from zteleop.control.gate import Refusal
+from zteleop.control.mux import Source
+from zteleop.control.proof import Prover
+
+STEP = 0.02
+
+
+@pytest.fixture
+def robot() -> Robot:
+    robot = Robot()
+    for name, prover in robot.provers.items():  # inputs that never admit a silence of their own
+        robot.provers[name] = Prover(prover.sender, silence=float("inf"))
+    return robot
+
+
+def drives_on(robot: Robot, **how: object) -> bool:
+    return moves(robot.hold(FORWARD, 0.3, **how))
+
+
+def begins_anew(robot: Robot, sender: str = "a") -> bool:
+    robot.say(REST, sender)
+    robot.wait(STEP)
+    return drives_on(robot, sender=sender)
+
+
+def deaf_for(robot: Robot, seconds: float, **how: object) -> None:
+    """Let the watchdog not hear the robot, while somebody goes on."""
+    robot.drive.pause("deaf", "starting", "", robot.now)
+    assert not moves(robot.hold(FORWARD, seconds, **how))
+    robot.drive.resume("deaf", "it was deaf", robot.now)
+    robot.wait(STEP)
+
+
+def stand_still(robot: Robot, seconds: float) -> None:
+    robot.now += seconds
+    assert robot.drive.late(robot.now) == pytest.approx(seconds)
+    robot.drive.interrupt("it stood still", robot.now, robot.drive.settings.deadlines.stand_still)
+
+
+def test_a_link_lost_for_less_than_two_seconds(robot: Robot) -> None:
+    robot.hold(FORWARD, 0.5)
+    robot.wait(1.9)
+    assert drives_on(robot)
+
+
+def test_a_link_lost_for_more(robot: Robot) -> None:
+    robot.hold(FORWARD, 0.5)
+    robot.wait(2.1)
+    assert not drives_on(robot)
+    assert begins_anew(robot)
+
+
+def test_a_deafness_of_less_than_two_seconds_and_of_more(robot: Robot) -> None:
+    robot.hold(FORWARD, 0.5)
+    deaf_for(robot, 1.0)
+    assert drives_on(robot)
+    deaf_for(robot, 2.0)
+    assert not drives_on(robot)
+    assert begins_anew(robot)
+
+
+@pytest.mark.parametrize(("seconds", "goes_on"), [(0.3, True), (0.45, True), (0.55, False)])
+def test_half_a_second_where_nobody_watched_the_chip(robot: Robot, seconds: float, goes_on: bool) -> None:
+    robot.hold(FORWARD, 0.5)
+    stand_still(robot, seconds - 0.06)  # beside what has passed since the last command
+    assert drives_on(robot) is goes_on
+    assert begins_anew(robot)
+
+
+def test_what_was_said_before_the_end_counts_for_nothing(robot: Robot) -> None:
+    robot.hold(FORWARD, 0.5)
+    stand_still(robot, 0.25)
+    assert robot.say(FORWARD, age=0.1) is Refusal.INTERRUPTED
+    assert not moves(robot.step())
+    robot.wait(STEP)
+    assert robot.say(FORWARD) is None
+    assert moves(robot.wait(STEP))
+
+
+def test_a_lever_that_was_set_by_one_press_asks_for_one_more(robot: Robot) -> None:
+    robot.hold(FORWARD, 0.5)
+    stand_still(robot, 0.25)
+    assert not drives_on(robot, act=False)
+    robot.say(FORWARD)
+    assert moves(robot.wait(STEP))
+
+
+def test_a_lever_set_three_seconds_before_a_loss_of_almost_two(robot: Robot) -> None:
+    robot.say(FORWARD)
+    robot.hold(FORWARD, 2.5, act=False)
+    robot.wait(1.85)
+    assert not drives_on(robot, act=False)
+    assert drives_on(robot)
+
+
+def test_almost_two_seconds_and_then_a_beat_and_a_round_trip(robot: Robot) -> None:
+    robot.hold(FORWARD, 0.5)
+    robot.wait(1.9)
+    assert robot.say(FORWARD, age=0.05) is Refusal.INTERRUPTED  # heard again; what it proves is from before
+    robot.wait(0.2)
+    assert drives_on(robot)
+
+
+def test_two_losses_that_touch_are_one(robot: Robot) -> None:
+    robot.hold(FORWARD, 0.5)
+    robot.wait(1.5)
+    robot.drive.pause("deaf", "starting", "", robot.now)
+    robot.hold(FORWARD, 0.6)
+    robot.drive.resume("deaf", "it was deaf", robot.now)
+    assert not drives_on(robot)
+    assert begins_anew(robot)
+
+
+def test_a_loss_that_outlives_a_deafness_is_measured_from_the_last_command_obeyed(robot: Robot) -> None:
+    robot.hold(FORWARD, 0.5)
+    deaf_for(robot, 0.9)
+    robot.wait(1.2)
+    assert not drives_on(robot)
+    assert begins_anew(robot)
+
+
+def test_two_losses_with_driving_between_are_two(robot: Robot) -> None:
+    for _ in range(3):
+        assert drives_on(robot)
+        robot.wait(1.7)
+    assert drives_on(robot)
+
+
+def test_a_stop_pressed_while_the_robot_was_cut_off_with_another_holding_a_key(robot: Robot) -> None:
+    robot.hold(FORWARD, 0.5)
+    robot.drive.pause("deaf", "starting", "", robot.now)
+    robot.hold(FORWARD, 0.7)
+    robot.stop(7)
+    robot.hold(FORWARD, 0.5)
+    robot.drive.resume("deaf", "it was deaf", robot.now)
+    assert not drives_on(robot)
+    robot.release(7)
+    assert not drives_on(robot)
+    assert begins_anew(robot)
+
+
+def test_of_two_operators_the_one_who_drove_keeps_the_place(robot: Robot) -> None:
+    robot.hold(FORWARD, 0.5, sender="a")
+    robot.wait(0.3)
+    for _ in range(7):  # a is cut off; b presses meanwhile, and acts all along
+        assert robot.say(FORWARD, "b") is Refusal.HELD
+        assert not moves(robot.wait(0.2))
+    assert drives_on(robot, sender="a")
+    robot.say(REST, "a")
+    assert not drives_on(robot, sender="b"), "whoever waited begins anew"
+    assert begins_anew(robot, "b")
+
+
+def test_of_two_operators_the_one_who_waits_has_it_when_the_other_is_gone(robot: Robot) -> None:
+    robot.hold(FORWARD, 0.5, sender="a")
+    assert robot.say(FORWARD, "b") is Refusal.HELD
+    robot.drive.withdraw(1, robot.now)
+    assert not drives_on(robot, sender="b")
+    assert begins_anew(robot, "b")
+
+
+def test_whoever_begins_during_an_interruption_begins_too_early(robot: Robot) -> None:
+    robot.drive.pause("deaf", "starting", "", robot.now)
+    robot.hold(FORWARD, 1.0)
+    robot.drive.resume("deaf", "it was deaf", robot.now)
+    assert not drives_on(robot)
+    assert begins_anew(robot)
+
+
+def test_letting_go_during_an_interruption_gives_the_right_away(robot: Robot) -> None:
+    robot.hold(FORWARD, 0.5)
+    robot.drive.pause("deaf", "starting", "", robot.now)
+    robot.say(REST)
+    robot.hold(FORWARD, 0.5)
+    robot.drive.resume("deaf", "it was deaf", robot.now)
+    assert not drives_on(robot)
+    assert begins_anew(robot)
+
+
+def test_an_idle_operator_still_drives_with_the_next_act_however_late(robot: Robot) -> None:
+    robot.say(FORWARD)
+    robot.hold(FORWARD, 8.0, act=False)
+    assert drives_on(robot)
+
+
+PLANNER = Source(10, silence=0.5, trust="arrival")
+
+
+def plan(robot: Robot, moving: bool = True) -> Refusal | None:
+    return robot.drive.receive("nav", FORWARD if moving else REST, None, robot.now)
+
+
+def planned(source: Source) -> Robot:
+    robot = Robot(DriveSettings(sources={"nav": source}))
+    plan(robot, moving=False)
+    robot.wait(STEP)
+    for _ in range(5):
+        plan(robot)
+        assert moves(robot.wait(0.06))
+    return robot
+
+
+def test_a_dead_planners_queued_command_after_an_interruption_moves_nothing() -> None:
+    robot = planned(PLANNER)
+    robot.drive.pause("deaf", "starting", "", robot.now)
+    robot.wait(1.5)
+    robot.drive.resume("deaf", "it was deaf", robot.now)
+    robot.wait(0.1)
+    assert plan(robot) is Refusal.INTERRUPTED
+    assert not moves(robot.wait(0.3))
+
+
+def test_a_planner_that_lives_drives_on_once_nothing_old_can_arrive() -> None:
+    robot = planned(PLANNER)
+    robot.drive.pause("deaf", "starting", "", robot.now)
+    robot.wait(1.0)
+    robot.drive.resume("deaf", "it was deaf", robot.now)
+    moved = []
+    for _ in range(10):
+        plan(robot)
+        moved.append(moves(robot.wait(0.06)))
+    assert moved[:4] == [False] * 4
+    assert moved[-1]
+
+
+@pytest.mark.parametrize("resume", [False, True])
+def test_after_a_start_a_planner_pauses_unless_its_owner_said_otherwise(resume: bool) -> None:
+    source = Source(10, silence=0.5, trust="arrival", resume=resume)
+    robot = Robot(DriveSettings(sources={"nav": source}))
+    for _ in range(10):
+        plan(robot)
+        step = robot.wait(0.1)
+    assert moves(step) is resume
+
+
+def test_whoever_can_prove_what_is_said_never_drives_on_after_a_start() -> None:
+    with pytest.raises(ValueError, match=r'resume is for trust = "arrival", found it at sources\.nav'):
+        DriveSettings(sources={"nav": Source(10, resume=True)})
