@@ -37,7 +37,9 @@ class Node:
         bus: BusSettings | None = None,
         *,
         session: zenoh.Session | None = None,
+        feed: Callable[[], object] | None = None,
     ) -> None:
+        self._feed = feed  # what each thread that wakes `spin` does first
         self.name, self.robot = chunk(name, "a node's name"), robot_name(robot) if robot else None
         self.session = session or open_session(bus or BusSettings())
         try:
@@ -135,13 +137,13 @@ class Node:
             subscriber, codec.decoders(kinds), self._complain if complain else _keep_quiet, self._handling
         )
         if handler:
-            self._pumps.append(Pump(inbox, handler, self._loop))
+            self._pumps.append(Pump(inbox, handler, self._loop, self._feed))
         return inbox
 
     def departures(self, handler: Callable[[int], object]) -> None:
         """Hand each sender of commands that is gone, by its number, to a handler in `spin`."""
         departures = presence.Departures(self.session, self._own_robot())
-        self._pumps.append(Pump(departures, handler, self._loop))
+        self._pumps.append(Pump(departures, handler, self._loop, self._feed))
 
     def on(self, topic: str, types: Types[M]) -> Callable[[Callable[[M], object]], Callable[[M], object]]:
         """Decorate a function to handle each message of a topic in `spin`."""

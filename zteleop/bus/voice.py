@@ -9,6 +9,7 @@ import sys
 import threading
 import time
 from collections import deque
+from contextlib import suppress
 from queue import SimpleQueue
 
 LINES = 200
@@ -46,6 +47,7 @@ class Voice:
             time.sleep(_GLANCE)
 
     def _write(self) -> None:
+        _stand_back()
         while True:
             self._bell.get()
             self._writing = True
@@ -56,6 +58,13 @@ class Voice:
                 except OSError:
                     continue  # nobody will ever read it
             self._writing = False
+
+
+def _stand_back() -> None:
+    """Be an ordinary thread, even if the one that spoke first runs before those, and this inherited it."""
+    if sys.platform == "linux":
+        with suppress(OSError):
+            os.sched_setscheduler(0, os.SCHED_OTHER, os.sched_param(0))
 
 
 _voice = Voice(2)

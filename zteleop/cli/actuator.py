@@ -79,7 +79,8 @@ def run(arguments: argparse.Namespace) -> int:
         place = None if len(tempfile.gettempdir()) < LONGEST_PLACE else "/tmp"
         folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="zteleop-", dir=place))
         bus, childs_bus = _door(tuned.bus, f"unixsock-stream/{folder}/bus")
-        node = stack.enter_context(_join(robot, bus))
+        with realtime.lent(PRIORITY):
+            node = stack.enter_context(_join(robot, bus))
         options.end_with_parent(arguments, node)
         pin = output_enable(name, chip)
         if pin:
@@ -97,7 +98,7 @@ def _join(robot: str, bus: BusSettings) -> Iterator[Node]:
     """Join the bus as the only watchdog of that robot."""
     with open_session(bus, settle=True, door=True) as session:
         _only_one(presence.holders(session, robot, "watchdog"), robot)
-        with Node("watchdog", robot, session=session) as node:
+        with Node("watchdog", robot, session=session, feed=realtime.feed) as node:
             _yield_to_the_first(presence.holders(session, robot, "watchdog"), robot)
             yield node
 

@@ -25,8 +25,10 @@ def run(number: int) -> int:
     settings = orders(sys.stdin.buffer.read())
     robot = settings.robot or ""
     end = _adopt(number)
-    realtime.take(PRIORITY, OOM_SCORE)  # what is refused, the watchdog was refused as well, and says so
-    with Node("actuator", robot, settings.bus) as node:
+    with realtime.lent(PRIORITY):
+        joined = Node("actuator", robot, settings.bus, feed=realtime.feed)
+    with joined as node:
+        realtime.take(PRIORITY, OOM_SCORE)  # what is refused, the watchdog was refused as well, and says so
         folder = config.state_folder(robot)
         chip = settings.driver_settings(settings.driver, robot)
         Actuator(

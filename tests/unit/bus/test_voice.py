@@ -1,8 +1,11 @@
 """With real pipes: what matters is what the kernel does when nobody reads."""
 
 import os
+import sys
 import threading
 import time
+
+import pytest
 
 from zteleop.bus.voice import LINES, Voice
 
@@ -55,3 +58,24 @@ def test_all_its_lines_are_written_by_one_thread_that_is_started_once() -> None:
     assert (voice._thread, threading.active_count()) == (thread, before)
     assert os.read(ear, 100).split() == [b"one", b"more", b"more", b"more"]
     os.close(ear)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="asks Linux")
+def test_its_thread_is_an_ordinary_one_whoever_speaks_first() -> None:
+    """SCHED_BATCH, which anybody may ask for, stands for whatever it would inherit."""
+    ear, mouth = os.pipe()
+    voice = Voice(mouth)
+
+    def speak() -> None:
+        os.sched_setscheduler(0, os.SCHED_BATCH, os.sched_param(0))
+        voice.say("first")
+
+    speaker = threading.Thread(target=speak)
+    speaker.start()
+    speaker.join()
+    voice.flush(1.0)
+    assert voice._thread
+    assert voice._thread.native_id
+    assert os.sched_getscheduler(voice._thread.native_id) == os.SCHED_OTHER
+    os.close(ear)
+    os.close(mouth)

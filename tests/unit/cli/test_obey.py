@@ -22,8 +22,8 @@ def made(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> dict[str, Any]:
     made: dict[str, Any] = {}
 
     @contextmanager
-    def join(name: str, robot: str, bus: BusSettings) -> Iterator[Node]:
-        made.update(name=name, bus=bus, node=Node(robot))
+    def join(name: str, robot: str, bus: BusSettings, *, feed: Any) -> Iterator[Node]:
+        made.update(name=name, bus=bus, node=Node(robot), feed=feed)
         yield made["node"]
         made["left"] = True
 
@@ -85,6 +85,34 @@ def test_it_ranks_below_its_watchdog(made: dict[str, Any], monkeypatch: pytest.M
     obey.run(7)
     assert made["asked"] < actuator.PRIORITY
     assert obey.OOM_SCORE > actuator.OOM_SCORE
+
+
+def test_what_feeds_it_starts_and_runs_between_it_and_ordinary_threads(
+    made: dict[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    order: list[str] = []
+
+    @contextmanager
+    def lent(priority: int) -> Iterator[None]:
+        order.append(f"lends for {priority}")
+        yield
+        order.append("takes back")
+
+    node = obey.Node
+
+    def open_bus(*arguments: Any, **options: Any) -> Any:
+        order.append("zenoh's threads start")
+        return node(*arguments, **options)
+
+    monkeypatch.setattr(obey.realtime, "lent", lent)
+    monkeypatch.setattr(obey.realtime, "take", lambda priority, score: order.append(f"takes {priority}"))
+    monkeypatch.setattr(obey, "Node", open_bus)
+    give(monkeypatch, msgspec.json.encode(SETTINGS))
+    obey.run(7)
+    own = obey.PRIORITY
+    assert order == [f"lends for {own}", "zenoh's threads start", "takes back", f"takes {own}"]
+    assert made["feed"] == obey.realtime.feed
+    assert own > obey.realtime.FEEDERS
 
 
 def test_a_chip_that_is_missing_leaves_the_bus(made: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:

@@ -4,39 +4,51 @@ import os
 import resource
 import subprocess
 import sys
+import threading
 from collections.abc import Callable
-from contextlib import nullcontext
+from contextlib import nullcontext, suppress
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from zteleop.errors import DeviceError
 from zteleop.nodes import realtime
-from zteleop.nodes.realtime import LOCKED, PRIORITY, SURVIVAL, Linux, take
+from zteleop.nodes.realtime import FEEDERS, LOCKED, PRIORITY, SURVIVAL, Linux, feed, lent, take
 
 linux_only = pytest.mark.skipif(sys.platform != "linux", reason="asks Linux")
 
 AS_THIS_USER = """
 import ctypes, json, os, resource, threading
-from zteleop.nodes.realtime import follow, take
+from zteleop.nodes.realtime import feed, follow, lent, take
 {prepare}
+def rank():
+    return os.sched_getscheduler(0) & ~os.SCHED_RESET_ON_FORK, os.sched_getparam(0).sched_priority
+def started(first=rank):
+    ranks = []
+    def run():
+        first()
+        ranks.append(rank())
+    thread = threading.Thread(target=run)
+    thread.start()
+    thread.join()
+    return ranks[0]
+with lent(5):
+    lent_to = started()
+after = rank()
 score = int(open("/proc/self/oom_score_adj").read())
 refused = take(5, -500)
 heap = bytearray({allocate})
-children = []
-def child():
-    children.append(os.sched_getscheduler(0))
-    follow()
-    children.append(os.sched_getscheduler(0) & ~os.SCHED_RESET_ON_FORK)
-    children.append(os.sched_getparam(0).sched_priority)
-thread = threading.Thread(target=child)
-thread.start()
-thread.join()
+process = os.fork()
+if not process:
+    os._exit(os.sched_getscheduler(0))
 status = dict(line.split(":", 1) for line in open("/proc/self/status"))
 print(json.dumps({{
     "refused": refused,
     "first": os.sched_getscheduler(0) & ~os.SCHED_RESET_ON_FORK == os.SCHED_FIFO,
-    "child": children,
+    "lent": [lent_to, after],
+    "threads": [started(), started(follow), started(feed)],
+    "process": os.waitstatus_to_exitcode(os.waitpid(process, 0)[1]),
     "locked": int(status["VmLck"].split()[0]) > 0,
     "limit": resource.getrlimit(resource.RLIMIT_MEMLOCK),
     "scores": [score, int(open("/proc/self/oom_score_adj").read())],
@@ -56,7 +68,7 @@ if os.geteuid() == 0:
 
 
 class Kernel(Linux):
-    """Grants what is asked, but for what it is told to refuse."""
+    """Grants what is asked, but for what it is told to refuse; runs this thread in no other way."""
 
     def __init__(self, oom_score: Path, refuses: str = "") -> None:
         self.oom_score, self.refuses = oom_score, refuses
@@ -65,6 +77,13 @@ class Kernel(Linux):
     def run_first(self, priority: int) -> None:
         self.asked.append(priority)
         self._answer("run_first")
+
+    def rank(self) -> tuple[int, int]:
+        return os.SCHED_BATCH, 0
+
+    def run_as(self, policy: int, priority: int) -> None:
+        self.asked.append((policy, priority))
+        self._answer("run_as")
 
     def lock_memory(self) -> None:
         self.asked.append("memory")
@@ -124,6 +143,31 @@ def test_elsewhere_than_on_linux_all_are_refused_quietly(
     assert capfd.readouterr() == ("", "")
 
 
+@linux_only
+def test_threads_are_lent_a_priority_below_the_loops_and_nothing_that_starts_later_is(score: Path) -> None:
+    kernel = Kernel(score)
+    with suppress(DeviceError), lent(20, kernel):
+        assert kernel.asked == [(os.SCHED_RR, 20), (os.SCHED_RR, FEEDERS)]
+        raise DeviceError("this robot has an actuator already")
+    assert kernel.asked[2:] == [(os.SCHED_BATCH, 0)]
+
+
+@linux_only
+def test_who_may_not_run_first_lends_nothing_lest_what_feeds_a_loop_run_before_it(score: Path) -> None:
+    kernel = Kernel(score, "run_as")
+    with lent(20, kernel):
+        assert kernel.asked == [(os.SCHED_RR, 20)]
+
+
+def test_elsewhere_than_on_linux_threads_are_as_they_were(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(realtime.sys, "platform", "darwin")
+    monkeypatch.setattr(Linux, "run_as", pytest.fail)
+    with lent(20):
+        thread = threading.Thread(target=feed)
+        thread.start()
+    thread.join()
+
+
 class Limits:
     """A kernel's limit on locked memory; who may not raise it may lower it."""
 
@@ -176,14 +220,18 @@ def ask(prepare: str, allocate: int) -> dict[str, Any]:
 
 
 @linux_only
-def test_what_is_said_is_what_the_kernel_did_and_threads_follow_only_when_they_ask() -> None:
+def test_what_is_said_is_what_the_kernel_did_and_threads_run_first_only_when_they_ask() -> None:
     told = ask("", allocate=50 * MEBIBYTE)
     refused = told["refused"]
     assert told["first"] == (PRIORITY not in refused)
     assert told["locked"] == (LOCKED not in refused)
     before, after = told["scores"]
     assert after == (before if SURVIVAL in refused or before in range(-500, 0) else -500)
-    assert told["child"] == [os.SCHED_OTHER, *((os.SCHED_FIFO, 1) if told["first"] else (os.SCHED_OTHER, 0))]
+    ordinary, first = [os.SCHED_OTHER, 0], told["first"]
+    behind, feeding = ([os.SCHED_FIFO, 1], [os.SCHED_RR, FEEDERS]) if first else (ordinary, ordinary)
+    assert told["lent"] == [feeding, ordinary]
+    assert told["threads"] == [ordinary, behind, feeding]
+    assert told["process"] == os.SCHED_OTHER
 
 
 @linux_only
@@ -191,5 +239,6 @@ def test_an_ordinary_user_is_refused_and_can_allocate_more_than_may_be_locked() 
     told = ask(ORDINARY, allocate=300 * MEBIBYTE)
     assert told["refused"] == [PRIORITY, LOCKED, SURVIVAL]
     assert not told["first"]
+    assert [*told["lent"], *told["threads"]] == 5 * [[os.SCHED_OTHER, 0]]
     assert not told["locked"]
     assert told["limit"][0] == told["limit"][1] > 0
