@@ -2,7 +2,8 @@
 
 from zteleop.control.drive import Drive, DriveSettings, Step
 from zteleop.control.explain import slowed, wanted
-from zteleop.messages import DriveStatus, Vehicle
+from zteleop.control.refusals import Turned
+from zteleop.messages import DriveStatus, Refusals, Refused, Vehicle
 
 
 def describe(settings: DriveSettings, tick_us: float, ready: bool = True) -> Vehicle:
@@ -40,4 +41,12 @@ def status(drive: Drive, step: Step, written: float) -> DriveStatus:
         max_speed=step.bound.speed,
         latency=step.bound.latency,
         slowed=slowed(drive, step),
+        released=drive.latch.released,
     )
+
+
+def refusals(drive: Drive, refused: dict[int, Turned], now: float) -> Refusals:
+    """Return what a robot says to those whose commands do not count."""
+    rest = drive.holds.strongest
+    told = [Refused(f"{who:x}", last.source, last.why, now - last.since) for who, last in refused.items()]
+    return Refusals(told, rest.why if rest else "", drive.latch.released)

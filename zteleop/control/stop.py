@@ -13,6 +13,8 @@ class Latch:
 
     def __init__(self, stop: Stop | None = None) -> None:
         self.stop: Stop | None = None
+        self.released = 0
+        """The id of the last stop that was released; one that has none counts on from the one before."""
         self._known: OrderedDict[int, None] = OrderedDict()
         if stop:
             self.obey(stop)
@@ -23,6 +25,7 @@ class Latch:
             return self._engage(said)
         if self.stop is None or said.id != self.stop.id:
             return False
+        self.released = self.stop.id or (self.released + 1) % 2**53
         self.stop = None
         return True
 

@@ -3,7 +3,17 @@
 from collections.abc import Iterable
 
 from zteleop.errors import MessageError, nearest
-from zteleop.messages.drive import Beat, Channel, DriveStatus, Pulse, Pwm, State, Vehicle
+from zteleop.messages.drive import (
+    Beat,
+    Channel,
+    DriveStatus,
+    Pulse,
+    Pwm,
+    Refusals,
+    Refused,
+    State,
+    Vehicle,
+)
 from zteleop.messages.geometry import (
     Point,
     Pose,
@@ -167,6 +177,8 @@ __all__ = [
     "Pwm",
     "Quaternion",
     "Range",
+    "Refusals",
+    "Refused",
     "SetBoolRequest",
     "SetBoolResponse",
     "SetParametersRequest",

@@ -106,3 +106,30 @@ class DriveStatus(Message):
     """s; the 99th percentile of how old the driver's commands are on arrival; 0 when nobody drives."""
     slowed: str
     """Why max_speed is less than the vehicle's own; empty when it is not."""
+    released: Annotated[int, Meta(ge=0, lt=2**53)]
+    """The id of the last stop that was released, also before the robot's start; 0 when there was none."""
+
+
+class Refused(Message):
+    """A sender whose commands do not count."""
+
+    ros_type: ClassVar[str] = "zteleop_msgs/msg/Refused"
+
+    sender: str
+    """In hexadecimal."""
+    source: str
+    why: Annotated[str, Meta(max_length=200)]
+    since: float
+    """s."""
+
+
+class Refusals(Message):
+    """Who has been refused for more than 0.5 s; said five times a second, and only while somebody is."""
+
+    ros_type: ClassVar[str] = "zteleop_msgs/msg/Refusals"
+
+    refused: list[Refused]
+    rest: str
+    """What keeps the robot at rest, whoever commands; empty when nothing does."""
+    released: Annotated[int, Meta(ge=0, lt=2**53)]
+    """As in DriveStatus."""

@@ -9,7 +9,8 @@ from zteleop.bus.topics import TOPICS
 from zteleop.control.command import to_command
 from zteleop.control.drive import Drive, DriveSettings
 from zteleop.control.explain import layers
-from zteleop.control.report import describe, status
+from zteleop.control.refusals import RefusedSenders
+from zteleop.control.report import describe, refusals, status
 from zteleop.control.stop import describe as describe_stop
 from zteleop.drivers import PulseDriver
 from zteleop.errors import DeviceError, MessageError
@@ -17,6 +18,7 @@ from zteleop.messages import (
     Beat,
     DriveStatus,
     Message,
+    Refusals,
     Stop,
     Vehicle,
     Why,
@@ -58,6 +60,8 @@ class Actuator:
         self._drive = Drive(settings, driver.tick_us, _epoch(), self._since)
         self._output = Output(driver, self._drive, self._tell_chip)
         self._output.start(self._since)
+        self._refused = RefusedSenders()
+        self._drive.latch.released = stop_file.released()
         self._drive.pause(DEAF, "starting", UNHEARD, self._since)
         if stop := stop_file.load():
             self._drive.stop(stop, self._since)
@@ -68,6 +72,7 @@ class Actuator:
         self._statuses = node.publisher("drive_status", DriveStatus)
         self._vehicles = node.publisher("vehicle", Vehicle)
         self._whys = node.publisher("why", Why)
+        self._refusals = node.publisher("refusals", Refusals)
         self._answered = float("-inf")
         self._soon = node.alarm(self._answer)
 
@@ -113,6 +118,8 @@ class Actuator:
             return
         refusal = self._drive.receive(source, command, proof, now)
         sender, acted = (proof.sender, proof.acted) if proof else (None, now)
+        if proof:
+            self._refused.note(proof.sender, source, refusal, now)
         self._journal.command(source, sender, command, acted, refusal, now)
         if refusal:
             self._node.log.warn(f"{received.key} is refused: {refusal}", f"{source} {refusal}")
@@ -216,6 +223,13 @@ class Actuator:
     def _describe(self) -> None:
         self._vehicles.publish(describe(self._settings, self._driver.tick_us, self._step.state != "starting"))
         self._whys.publish(Why(layers(self._drive, self._step, clock.now())))
+        self._tell_refused(clock.now())
+
+    def _tell_refused(self, now: float) -> None:
+        """Say who is refused, to those who would not hear it otherwise; nothing while all is well."""
+        refused = self._refused.news(now)
+        if refused is not None:
+            self._refusals.publish(refusals(self._drive, refused, now))
 
 
 def _epoch() -> int:

@@ -4,6 +4,7 @@ import os
 import secrets
 import threading
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 import msgspec
@@ -16,6 +17,7 @@ class StopFile:
 
     def __init__(self, path: Path, warn: Callable[[str], object]) -> None:
         self.path, self._warn = path, warn
+        self._past = path.with_name(f"{path.name}.released")
 
     def exists(self) -> bool:
         """Say whether the robot is stopped by this file; what cannot be looked at is there."""
@@ -49,9 +51,20 @@ class StopFile:
         # An SD card may take a second for it; the loop that keeps the robot at rest must not wait.
         threading.Thread(target=_flush, args=(self.path,), daemon=True).start()
 
-    def remove(self) -> bool:
-        """Forget the stop; False, in words, where the file stays."""
+    def released(self) -> int:
+        """Return the id of the last stop that was released; 0 where none is known."""
         try:
+            return msgspec.json.decode(_read(self._past), type=Stop).id or 1
+        except OSError:
+            return 0
+        except (msgspec.DecodeError, UnicodeDecodeError):
+            return 1
+
+    def remove(self) -> bool:
+        """Forget the stop, but not that it was the last; False, in words, where the file stays."""
+        try:
+            with suppress(OSError):
+                _write(self._past, _read(self.path))
             self.path.unlink(missing_ok=True)
         except OSError as error:
             self._warn(f"the stop cannot be released: {self.path}: {error.strerror}; remove it by hand")

@@ -80,3 +80,25 @@ def test_a_stop_in_words_says_how_to_go_on() -> None:
         "stopped by ann: a cat; zteleop stop --release, then begin from neutral"
     )
     assert describe(stop(1, by="")).startswith("stopped by somebody; ")
+
+
+def test_the_last_stop_that_was_released_is_known() -> None:
+    latch = Latch(stop(7))
+    assert latch.released == 0
+    latch.obey(release(7))
+    assert latch.released == 7
+    latch.obey(stop(9))
+    assert latch.released == 7
+    latch.obey(release(9))
+    assert latch.released == 9
+
+
+def test_a_nameless_stop_is_another_than_the_one_before() -> None:
+    latch = Latch()
+    latch.released = 2**53 - 1
+    seen = []
+    for _ in range(2):
+        latch.obey(stop(0))
+        latch.obey(release(0))
+        seen.append(latch.released)
+    assert seen == [0, 1]

@@ -19,11 +19,15 @@ class Said:
     def __init__(self, topic: str, sender: str = "") -> None:
         self.topic, self.sender = topic, sender
         self.messages: list[Any] = []
-        self.acts = 0
+        self.acts = self.lets_go = 0
         self.matched = True
+        self.refused = ""
 
     def act(self) -> None:
         self.acts += 1
+
+    def let_go(self) -> None:
+        self.lets_go += 1
 
     def repeat(self, message: Message) -> None:
         self.messages.append(message)
@@ -62,7 +66,7 @@ class Node:
         self._due: dict[float, float] = {}
         self.watched: dict[int, Action] = {}
         self.alarms: list[SimpleNamespace] = []
-        self.robot_heard = SimpleNamespace(beat=None, vehicle=None, at=float("-inf"))
+        self.robot_heard = SimpleNamespace(beat=None, vehicle=None, at=float("-inf"), refusals=None)
         self.stopped = False
         self.infos: list[str] = []
         self.warnings: list[str] = []
@@ -189,6 +193,7 @@ class Shelf:
 
     def __init__(self, stop: Stop | None = None) -> None:
         self.stop = stop
+        self.past = 0
         self.full = self.stuck = False
         """Nothing more can be kept, or removed."""
 
@@ -200,6 +205,9 @@ class Shelf:
 
     def keep(self, stop: Stop) -> None:
         self.stop = self.stop if self.full else stop
+
+    def released(self) -> int:
+        return self.past
 
     def remove(self) -> bool:
         self.stop = self.stop if self.stuck else None

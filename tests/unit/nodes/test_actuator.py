@@ -512,3 +512,41 @@ def test_a_weak_supply_slows_it_down_and_is_told(node: Node, clock: Clock, tmp_p
     node.timers[DESCRIBE_EVERY]()
     caps = [layer.says for layer in node.said["why"].messages[-1].layers if layer.name == "cap"]
     assert caps == ["1.5 of 3 m/s: the Pi's supply is too low (undervoltage); use a better one"]
+
+
+def refuse(robot: Robot, times: int) -> None:
+    for number in range(times):
+        robot.tick(5)
+        robot.say(FORWARD, proof=Proof(255, number + 1, 0, 0.0, 0.0, 0.0))
+        robot.node.timers[DESCRIBE_EVERY]()
+
+
+def test_whoever_is_refused_for_a_while_is_told_and_nobody_else(robot: Robot) -> None:
+    told = robot.node.said["refusals"]
+    robot.say(PUSH)
+    robot.node.timers[DESCRIBE_EVERY]()
+    refuse(robot, 5)
+    assert told.messages == []
+    refuse(robot, 3)
+    refused = told.take()[-1].refused[0]
+    assert (refused.sender, refused.source) == ("ff", "keyboard")
+    assert refused.why == "it was made before the robot's last start"
+    assert refused.since > 0.5
+    robot.tick(60)
+    robot.node.timers[DESCRIBE_EVERY]()
+    assert told.take() == []
+
+
+def test_who_is_refused_hears_what_keeps_the_robot_at_rest_and_which_stop_was_the_last(
+    node: Node, clock: Clock
+) -> None:
+    shelf = Shelf(KEPT)
+    shelf.past = 3
+    robot = Robot(node, clock, shelf=shelf)
+    refuse(robot, 8)
+    told = node.said["refusals"].messages[-1]
+    assert (told.rest, told.released) == (robot.status.why.partition("; keyboard")[0], 3)
+    robot.node.inboxes["stop"].handler(
+        Received(Stop(engaged=False, id=KEPT.id, by="ann", why=""), "stop", None, clock.time)
+    )
+    assert robot.status.released == KEPT.id

@@ -212,3 +212,30 @@ def test_a_pipe_in_the_files_place_means_stopped_and_is_not_waited_for(
     assert file.load().by == "nobody known"
     file.keep(STOP)
     assert "the stop holds, but not across a restart" in warnings[0]
+
+
+def test_the_last_stop_released_is_known_to_every_later_process(file: StopFile) -> None:
+    assert file.released() == 0
+    file.keep(STOP)
+    assert file.released() == 0
+    file.remove()
+    assert StopFile(file.path, print).released() == STOP.id
+    assert file.remove()
+    assert file.released() == STOP.id
+
+
+@pytest.mark.parametrize("content", [b"", b"\xff", b'{"engaged": true}', b"null"])
+def test_a_released_stop_that_cannot_be_read_was_one(file: StopFile, content: bytes) -> None:
+    file.path.parent.mkdir(parents=True)
+    file.path.write_bytes(content)
+    assert file.remove()
+    assert file.released() == 1
+
+
+def test_where_the_past_cannot_be_kept_a_stop_is_released_all_the_same(
+    file: StopFile, monkeypatch: pytest.MonkeyPatch, warnings: list[str]
+) -> None:
+    file.keep(STOP)
+    monkeypatch.setattr(module, "_write", refusing(errno.ENOSPC))
+    assert file.remove()
+    assert (file.exists(), file.released(), warnings) == (False, 0, [])

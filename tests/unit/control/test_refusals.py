@@ -1,0 +1,95 @@
+from zteleop.control.gate import Refusal
+from zteleop.control.refusals import FORGOTTEN_AFTER, SENDERS, TOLD_AFTER, RefusedSenders
+
+STALE, EARLIER = Refusal.STALE, Refusal.EARLIER_START
+
+
+def stream(
+    senders: RefusedSenders, since: float, until: float, refusal: Refusal | None = STALE, sender: int = 7
+) -> None:
+    """Say ten commands a second."""
+    for tenth in range(round(since * 10), round(until * 10) + 1):
+        senders.note(sender, "program", refusal, tenth / 10)
+
+
+def test_while_all_is_well_there_is_nothing_to_say() -> None:
+    senders = RefusedSenders()
+    stream(senders, 1.0, 3.0, None)
+    assert senders.news(3.0) is None
+
+
+def test_a_refusal_is_told_when_it_has_lasted() -> None:
+    senders = RefusedSenders()
+    stream(senders, 1.0, 1.0 + TOLD_AFTER)
+    assert senders.news(1.0 + TOLD_AFTER) is None
+    told = senders.news(1.01 + TOLD_AFTER)
+    assert told
+    assert told[7] == ("program", STALE, 1.0, 1.0 + TOLD_AFTER)
+
+
+def test_one_command_that_counts_begins_it_again() -> None:
+    senders = RefusedSenders()
+    stream(senders, 1.0, 1.4)
+    senders.note(7, "program", None, 1.45)
+    stream(senders, 1.5, 1.9)
+    assert senders.news(1.95) is None
+
+
+def test_another_reason_is_the_same_refusal_in_new_words() -> None:
+    senders = RefusedSenders()
+    stream(senders, 1.0, 1.4)
+    stream(senders, 1.5, 1.6, EARLIER)
+    told = senders.news(1.6)
+    assert told
+    assert (told[7].why, told[7].since) == (EARLIER, 1.0)
+
+
+def test_whoever_was_told_hears_once_that_he_counts_again() -> None:
+    senders = RefusedSenders()
+    stream(senders, 1.0, 2.0)
+    assert senders.news(2.0)
+    senders.note(7, "program", None, 2.1)
+    assert senders.news(2.2) == {}
+    assert senders.news(2.4) is None
+
+
+def test_whoever_falls_silent_is_forgotten_and_not_told_that_he_counts() -> None:
+    senders = RefusedSenders()
+    stream(senders, 1.0, 2.0)
+    assert senders.news(2.0 + FORGOTTEN_AFTER)
+    assert senders.news(2.01 + FORGOTTEN_AFTER) is None
+    stream(senders, 3.5, 3.6)
+    assert senders.news(3.7) is None
+
+
+def test_a_command_after_silence_is_a_new_refusal_although_nobody_looked_meanwhile() -> None:
+    senders = RefusedSenders()
+    stream(senders, 1.0, 1.0)
+    stream(senders, 5.0, 5.0)
+    assert senders.news(5.1) is None
+
+
+def test_one_a_second_is_told() -> None:
+    """The default of `zteleop pub`."""
+    senders = RefusedSenders()
+    senders.note(7, "program", STALE, 1.0)
+    assert senders.news(1.6)
+
+
+def test_a_crowd_is_bounded_and_leaves_room_when_it_is_silent() -> None:
+    senders = RefusedSenders()
+    for sender in range(2 * SENDERS):
+        senders.note(sender, "program", STALE, 1.0)
+    told = senders.news(1.6)
+    assert told
+    assert sorted(told) == list(range(SENDERS))
+    stream(senders, 3.0, 4.0, sender=999)
+    assert list(senders.news(4.0) or {}) == [999]
+
+
+def test_a_crowd_that_nobody_looks_at_leaves_room_as_well() -> None:
+    senders = RefusedSenders()
+    for sender in range(SENDERS):
+        senders.note(sender, "program", STALE, 1.0)
+    stream(senders, 3.0, 4.0, sender=999)
+    assert list(senders.news(4.0) or {}) == [999]

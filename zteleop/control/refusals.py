@@ -1,0 +1,61 @@
+"""Who has been refused for long enough to be told: a program that streams hears it no other way."""
+
+from typing import NamedTuple
+
+from zteleop.control.gate import Refusal
+
+TOLD_AFTER = 0.5
+"""s of refusals without one command that counted; a single late command is nobody's news"""
+FORGOTTEN_AFTER = 1.0
+"""s without a command"""
+SENDERS = 64
+"""How many are remembered; whoever comes then waits until one is obeyed or silent."""
+
+
+class Turned(NamedTuple):
+    """A sender that is refused, why, since when, and when it was last."""
+
+    source: str
+    why: Refusal
+    since: float
+    at: float
+
+
+class RefusedSenders:
+    """Keeps each sender from its first refused command to the next that counts."""
+
+    def __init__(self) -> None:
+        self._senders: dict[int, Turned] = {}
+        self._told: set[int] = set()
+
+    def note(self, sender: int, source: str, refusal: Refusal | None, now: float) -> None:
+        """Remember how a command was judged; None is one that counts."""
+        if refusal is None:
+            if self._senders:
+                self._senders.pop(sender, None)
+            return
+        last = self._senders.get(sender)
+        if last and now - last.at <= FORGOTTEN_AFTER:
+            self._senders[sender] = Turned(source, refusal, last.since, now)
+        elif last or len(self._senders) < SENDERS:
+            self._senders[sender] = Turned(source, refusal, now, now)
+        else:
+            self._forget(now)
+
+    def news(self, now: float) -> dict[int, Turned] | None:
+        """Return who must be told now; None when there is nothing to say.
+
+        Nobody is said once: to those who were told, and count again.
+        """
+        if not self._senders and not self._told:
+            return None
+        self._forget(now)
+        found = {sender: last for sender, last in self._senders.items() if now - last.since > TOLD_AFTER}
+        told, self._told = self._told, set(found)
+        return found if found or told else None
+
+    def _forget(self, now: float) -> None:
+        silent = [sender for sender, last in self._senders.items() if now - last.at > FORGOTTEN_AFTER]
+        for sender in silent:
+            del self._senders[sender]
+            self._told.discard(sender)  # whoever says nothing is not obeyed again either
