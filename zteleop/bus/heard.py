@@ -4,7 +4,7 @@ import time
 
 from zteleop.bus import clock
 from zteleop.bus.subscription import Subscription
-from zteleop.messages import Beat, Vehicle
+from zteleop.messages import Beat, Refusals, Vehicle
 
 PATIENCE, START = 1.0, 6.0
 """s for the robot to be heard, and then for its start to be over."""
@@ -15,13 +15,19 @@ _POLL = 0.002
 class Heard:
     """The robot's newest beat, which proofs echo, and what it says of itself."""
 
-    def __init__(self, beats: Subscription[Beat], vehicles: Subscription[Vehicle]) -> None:
-        self._beats, self._vehicles = beats, vehicles
+    def __init__(
+        self, beats: Subscription[Beat], vehicles: Subscription[Vehicle], refusals: Subscription[Refusals]
+    ) -> None:
+        self._beats, self._vehicles, self._refusals = beats, vehicles, refusals
         self._waited = False
         self.beat: Beat | None = None
         self.vehicle: Vehicle | None = None
-        self.at = float("-inf")
+        self.at = NEVER
         """When the beat was heard, by the bus clock."""
+        self.listened = NEVER
+        """When it was last listened for."""
+        self.refusals: Refusals | None = None
+        """Whom the robot last said it refuses."""
 
     @property
     def there(self) -> bool:
@@ -48,6 +54,10 @@ class Heard:
     def listen(self) -> None:
         """Take in what arrived last."""
         self.vehicle = self._vehicles.newest() or self.vehicle
-        beat = self._beats.newest()
+        beat, self.listened = self._beats.newest(), clock.now()
         if beat:
-            self.beat, self.at = beat, clock.now()
+            self.beat, self.at = beat, self.listened
+
+    def listen_for_refusals(self) -> None:
+        """Take in whom the robot refuses; proves nothing, so it may be heard at any time."""
+        self.refusals = self._refusals.newest() or self.refusals

@@ -8,6 +8,7 @@ from typing import Any, Self, TypeVar
 import zenoh
 
 from zteleop.bus import clock, codec, presence, signals, voice
+from zteleop.bus.answer import Answer
 from zteleop.bus.heard import Heard
 from zteleop.bus.log import NodeLog
 from zteleop.bus.loop import Loop, Timer
@@ -18,7 +19,7 @@ from zteleop.bus.subscription import Pump, Received, Subscription
 from zteleop.bus.topics import topic_of
 from zteleop.control.proof import Prover
 from zteleop.errors import BusError, ConfigError
-from zteleop.messages import Beat, Log, Message, Vehicle
+from zteleop.messages import Beat, Log, Message, Refusals, Vehicle
 
 M = TypeVar("M", bound=Message)
 T = TypeVar("T")
@@ -94,15 +95,15 @@ class Node:
             raise ConfigError(f"{topic} takes {takes}, found {', '.join(k.__name__ for k in kinds)}")
         if not kind.command:
             return Publisher(self._declare(name, kinds, kind.urgent), kinds)
-        if name.path == kind.name:
+        path = name.path
+        if path == kind.name:
             name = Name(name.robot, f"{kind.name}/{chunk(source, 'a source')}")
         heard = self.heard(name.robot)
-        if wait and not heard.wait():
-            self.log.warn(
-                f"robot {name.robot} is not heard; what is said on {topic} moves nothing until its actuator "
-                "is on (zteleop list shows who is)"
-            )
+        found = heard.wait() if wait else True
         sender = secrets.randbits(_SENDER_BITS)
+        answer = Answer(f"{sender:x}", path, name.robot, heard, self.log)
+        if not found:
+            answer.miss()
         self._token(presence.sender_key(name.robot, sender))
         return Publisher(
             self._declare(name, kinds, kind.urgent),
@@ -110,6 +111,7 @@ class Node:
             Prover(sender),
             heard,
             self._listen_now,
+            answer,
         )
 
     def subscription(
@@ -198,8 +200,11 @@ class Node:
         """Return what is heard of a robot, by default the node's own."""
         robot = robot or self._own_robot()
         if robot not in self._heard:
-            beats = self.subscription(f"/{robot}/beat", Beat)
-            self._heard[robot] = Heard(beats, self.subscription(f"/{robot}/vehicle", Vehicle))
+            self._heard[robot] = Heard(
+                self.subscription(f"/{robot}/beat", Beat),
+                self.subscription(f"/{robot}/vehicle", Vehicle),
+                self.subscription(f"/{robot}/refusals", Refusals, complain=False),
+            )
         return self._heard[robot]
 
     def _own_robot(self) -> str:

@@ -6,7 +6,9 @@ from typing import Generic, TypeVar
 import zenoh
 
 from zteleop.bus import clock, codec
+from zteleop.bus.answer import Answer
 from zteleop.bus.heard import Heard
+from zteleop.control.command import neutral
 from zteleop.control.proof import Prover
 from zteleop.errors import BusError, MessageError
 from zteleop.messages import Int16MultiArray, Message, Pwm, Twist, TwistStamped, Vehicle
@@ -28,9 +30,14 @@ class Publisher(Generic[M]):
         prover: Prover | None = None,
         heard: Heard | None = None,
         listen: Callable[[], object] = lambda: None,
+        answer: Answer | None = None,
     ) -> None:
         self._publisher, self._prover, self._heard, self._listen = publisher, prover, heard, listen
-        self._encodings = {kind: zenoh.Encoding(codec.encoding_of(kind)) for kind in types}
+        self._answer = answer
+        self._said: type[Message] = types[0]
+        self._encodings: dict[type[Message], zenoh.Encoding] = {
+            kind: zenoh.Encoding(codec.encoding_of(kind)) for kind in types
+        }
 
     @property
     def matched(self) -> bool:
@@ -43,9 +50,15 @@ class Publisher(Generic[M]):
         """What the robot calls this publisher in `drive_status.operator`."""
         return f"{self._prover.sender:x}" if self._prover else ""
 
+    @property
+    def refused(self) -> str:
+        """Why this publisher is not obeyed, in the robot's words; empty while it is, or nobody knows."""
+        return self._answer.refused if self._answer else ""
+
     def publish(self, message: M) -> None:
         """Say a message, as an act; raises MessageError when it is of another type or not finite."""
         encoding, payload = self._encode(message)
+        self._said = type(message)
         self.act()
         self._put(message, encoding, payload)
 
@@ -55,28 +68,45 @@ class Publisher(Generic[M]):
             self._listen()
             self._prover.act(self._heard.beat)
 
+    def let_go(self) -> None:
+        """Say neutral and end the claim: the next `publish` begins anew, and may move the robot.
+
+        A refusal is the robot waiting for a person. Let go because a person did, or because the task is
+        done; a program that lets go whenever it is `refused` starts a robot by itself, after a restart
+        or after somebody released a stop.
+        """
+        if self._prover and self._heard:
+            self._prover.let_go()
+            self._listen()
+            if rest := neutral(self._said, self._heard.vehicle):
+                self._put(rest, *self._encode(rest))
+
     def repeat(self, message: M) -> None:
         """Say a message without a new act."""
-        self._put(message, *self._encode(message))
+        encoding, payload = self._encode(message)
+        self._said = type(message)
+        self._put(message, encoding, payload)
 
-    def _encode(self, message: M) -> tuple[zenoh.Encoding, bytes]:
+    def _encode(self, message: Message) -> tuple[zenoh.Encoding, bytes]:
         encoding = self._encodings.get(type(message))
         if encoding is None:
             expected = " or ".join(kind.__name__ for kind in self._encodings)
             raise MessageError(f"expected {expected}, found {type(message).__name__}")
         return encoding, codec.encode(message)
 
-    def _put(self, message: M, encoding: zenoh.Encoding, payload: bytes) -> None:
+    def _put(self, message: Message, encoding: zenoh.Encoding, payload: bytes) -> None:
         try:
             self._publisher.put(payload, encoding=encoding, attachment=self._proof(message))
         except zenoh.ZError as error:
             raise BusError(f"cannot say a {type(message).__name__}: is its node closed? ({error})") from error
 
-    def _proof(self, message: M) -> bytes | None:
+    def _proof(self, message: Message) -> bytes | None:
         if not self._prover or not self._heard:
             return None
         self._listen()
         moving = moves(message, self._heard.vehicle)
+        if self._answer:
+            self._answer.heed(moving)
         proof = self._prover.prove(self._heard.beat, moving, clock.now())
         return codec.pack_proof(proof) if proof else None
 

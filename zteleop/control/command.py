@@ -1,7 +1,8 @@
-"""What a message on a command topic asks for."""
+"""What a message on a command topic asks for, and the one that asks for nothing."""
 
+from zteleop.control.stick import neutral_pwm
 from zteleop.errors import MessageError
-from zteleop.messages import Int16MultiArray, Message, Pwm, Twist, TwistStamped
+from zteleop.messages import Int16MultiArray, Message, MultiArrayLayout, Pwm, Twist, TwistStamped, Vehicle
 
 
 def to_command(message: Message) -> Twist | Pwm:
@@ -15,3 +16,14 @@ def to_command(message: Message) -> Twist | Pwm:
     if isinstance(message, Twist | Pwm):
         return message
     raise MessageError(f"a {type(message).__name__} commands nothing")
+
+
+def neutral(kind: type[Message], vehicle: Vehicle | None) -> Message | None:
+    """Return the neutral command of a type, if there is one; of pulses, 0 is none."""
+    if not issubclass(kind, Pwm | Int16MultiArray):
+        return kind.zero()
+    if vehicle is None or vehicle.kind != "ackermann":
+        return None
+    pwm = neutral_pwm(vehicle)
+    ticks = [pwm.steering_ticks, pwm.throttle_ticks]
+    return pwm if issubclass(kind, Pwm) else Int16MultiArray(MultiArrayLayout.zero(), ticks)

@@ -65,6 +65,10 @@ class Prover:
         self._seq += 1
         return Proof(self._sender, self._seq, beat.epoch, beat.time, self._acted, self._began)
 
+    def let_go(self) -> None:
+        """End the claim: what moves next begins anew."""
+        self._moving = False
+
     def _hear(self, beat: Beat) -> None:
         if beat.epoch != self._epoch:
             self._epoch = beat.epoch

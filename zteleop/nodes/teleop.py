@@ -183,6 +183,8 @@ class Teleop:
         status = self._status
         ours = status is not None and status.operator == publisher.sender
         note, alarm = self._news(now), self._stopping.unanswered
+        if status and not alarm and publisher.refused.partition(" (")[0] not in status.why:
+            note = publisher.refused
         return View(now, self._vehicle, self._stick, self._wanted, status, ours, self._odom, note, alarm)
 
     def _news(self, now: float) -> str:

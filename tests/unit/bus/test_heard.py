@@ -6,7 +6,7 @@ from zteleop.bus.heard import Heard
 from zteleop.bus.subscription import Subscription
 from zteleop.control.drive import DriveSettings
 from zteleop.control.report import describe
-from zteleop.messages import Beat, Vehicle
+from zteleop.messages import Beat, Refusals, Vehicle
 
 CAR = describe(DriveSettings(), 4.08)
 
@@ -22,10 +22,16 @@ def vehicles() -> Ring:
 
 
 @pytest.fixture
-def robot(beats: Ring, vehicles: Ring, clock: Clock) -> Heard:
+def refusals() -> Ring:
+    return Ring()
+
+
+@pytest.fixture
+def robot(beats: Ring, vehicles: Ring, refusals: Ring, clock: Clock) -> Heard:
     return Heard(
         Subscription(beats, codec.decoders([Beat]), pytest.fail),
         Subscription(vehicles, codec.decoders([Vehicle]), pytest.fail),
+        Subscription(refusals, codec.decoders([Refusals]), pytest.fail),
     )
 
 
@@ -56,6 +62,21 @@ def test_silence_changes_neither_the_beat_nor_when_it_was_heard(
     clock.pass_by(3.0)
     robot.listen()
     assert (robot.beat, robot.at) == (Beat(1, 5.0), clock.time - 3.0)
+
+
+def test_it_knows_when_it_last_listened_for_a_beat(robot: Heard, clock: Clock) -> None:
+    clock.pass_by(3.0)
+    robot.listen()
+    assert (robot.listened, robot.at) == (clock.time, float("-inf"))
+
+
+def test_whom_the_robot_refuses_is_heard_without_a_beat(robot: Heard, beats: Ring, refusals: Ring) -> None:
+    beats.samples.append(sample(Beat(1, 5.0)))
+    refusals.samples.append(sample(Refusals([], "", 3)))
+    robot.listen_for_refusals()
+    assert (robot.refusals, robot.beat) == (Refusals([], "", 3), None)
+    robot.listen_for_refusals()
+    assert robot.refusals
 
 
 def test_what_a_robot_says_of_itself_stays_known(robot: Heard, vehicles: Ring) -> None:

@@ -12,6 +12,8 @@ from zteleop.bus.node import Node
 from zteleop.errors import ConfigError
 from zteleop.messages import Beat, Int16MultiArray, Log, Odometry, Pwm, String, Twist, TwistStamped
 
+HEARD = ("beat", "vehicle", "refusals")
+
 
 @pytest.fixture
 def session(clock: Clock, monkeypatch: pytest.MonkeyPatch) -> Session:
@@ -194,7 +196,7 @@ def test_an_alarm_rings_in_spin(node: Node, clock: Clock) -> None:
 def test_what_is_heard_of_a_robot_is_heard_once(node: Node, session: Session) -> None:
     assert node.heard() is node.heard("archangel")
     assert node.heard("zoe") is not node.heard()
-    assert set(session.rings) == {f"robot/{r}/{t}" for r in ("archangel", "zoe") for t in ("beat", "vehicle")}
+    assert set(session.rings) == {f"robot/{r}/{t}" for r in ("archangel", "zoe") for t in HEARD}
 
 
 def test_without_a_robot_nobody_is_heard(stranger: Node) -> None:

@@ -2,12 +2,16 @@ import pytest
 from unit.bus.fakes import Clock, Ring, ZenohPublisher, sample
 
 from zteleop.bus import codec
+from zteleop.bus.answer import Answer
 from zteleop.bus.heard import Heard
+from zteleop.bus.log import NodeLog
 from zteleop.bus.publisher import Publisher, moves
 from zteleop.bus.subscription import Subscription
 from zteleop.control.drive import DriveSettings
+from zteleop.control.mixer import Differential
 from zteleop.control.proof import NEVER, Proof, Prover
 from zteleop.control.report import describe
+from zteleop.control.servo import Servo
 from zteleop.errors import MessageError
 from zteleop.messages import (
     Beat,
@@ -16,6 +20,8 @@ from zteleop.messages import (
     Message,
     MultiArrayLayout,
     Pwm,
+    Refusals,
+    Refused,
     String,
     Twist,
     TwistStamped,
@@ -23,6 +29,10 @@ from zteleop.messages import (
 )
 
 CAR = describe(DriveSettings(), 4.08)
+TANK = describe(
+    DriveSettings(mixer=Differential(), servos={"left": Servo(channel=0), "right": Servo(channel=1)}), 4.08
+)
+KINDS = "Twist or TwistStamped or Pwm or Int16MultiArray"
 FORWARD, REST = Twist.planar(0.5), Twist.planar()
 
 
@@ -32,9 +42,15 @@ class Operator:
     def __init__(self) -> None:
         self.beats, self.listened, self.zenoh = Ring(), 0, ZenohPublisher()
         beats: Subscription[Beat] = Subscription(self.beats, codec.decoders([Beat]), pytest.fail)
-        vehicles: Subscription[Vehicle] = Subscription(Ring(), codec.decoders([Vehicle]), pytest.fail)
-        self.heard = Heard(beats, vehicles)
-        self.publisher = Publisher(self.zenoh, (Twist, Pwm), Prover(255), self.heard, self.listen)
+        self.vehicles, self.refusals = Ring(), Ring()
+        vehicles: Subscription[Vehicle] = Subscription(self.vehicles, codec.decoders([Vehicle]), pytest.fail)
+        refusals: Subscription[Refusals] = Subscription(
+            self.refusals, codec.decoders([Refusals]), pytest.fail
+        )
+        self.heard = Heard(beats, vehicles, refusals)
+        answer = Answer("ff", "cmd_vel", "archangel", self.heard, NodeLog("nose", lambda log: None, print))
+        kinds = (Twist, TwistStamped, Pwm, Int16MultiArray)
+        self.publisher = Publisher(self.zenoh, kinds, Prover(255), self.heard, self.listen, answer)
 
     def listen(self) -> None:
         self.listened += 1
@@ -74,9 +90,12 @@ def test_each_type_a_topic_takes_goes_out_under_its_own_name(operator: Operator)
     assert [put.encoding.rpartition("/")[2] for put in operator.zenoh.puts] == ["Twist", "Pwm"]
 
 
-@pytest.mark.parametrize("message", [String("x"), TwistStamped(Header.zero(), REST), Twist, None])
+@pytest.mark.parametrize("message", [String("x"), Beat(1, 2.0), Twist, None])
 def test_another_type_is_refused_by_name(operator: Operator, message: Message) -> None:
-    with pytest.raises(MessageError, match=f"expected Twist or Pwm, found {type(message).__name__}"):
+    with pytest.raises(
+        MessageError,
+        match=f"expected {KINDS}, found {type(message).__name__}",
+    ):
         operator.publisher.publish(message)
     assert operator.zenoh.puts == []
 
@@ -139,6 +158,62 @@ def test_a_new_epoch_is_echoed_and_old_acts_are_forgotten(operator: Operator) ->
     operator.beat(2.0, epoch=9)
     operator.publisher.repeat(FORWARD)
     assert operator.proof == Proof(255, 2, 9, beat=2.0, acted=NEVER, began=NEVER)
+
+
+@pytest.mark.parametrize(
+    "message",
+    [FORWARD, TwistStamped(Header.zero(), FORWARD), Pwm(390, 400), ticks(390, 400)],
+    ids=lambda message: type(message).__name__,
+)
+def test_who_lets_go_says_neutral_of_its_own_type_and_begins_anew(
+    operator: Operator, clock: Clock, message: Message
+) -> None:
+    operator.vehicles.samples.append(sample(CAR))
+    for time in (10.0, 10.1):
+        clock.pass_by(0.1)
+        operator.beat(time)
+        operator.publisher.publish(message)
+    assert operator.proof.began == 10.0
+    operator.publisher.let_go()
+    last = operator.zenoh.puts[-1]
+    said = codec.decode(last.payload, last.encoding, codec.decoders([type(message)]))
+    assert type(said) is type(message)
+    assert not moves(said, CAR)
+    assert operator.proof.acted == 10.1
+    operator.beat(10.2)
+    operator.publisher.publish(message)
+    assert operator.proof.began == 10.2
+
+
+@pytest.mark.parametrize("vehicle", [None, TANK])
+def test_pulses_of_an_unknown_neutral_let_go_in_silence_and_begin_anew(
+    operator: Operator, vehicle: Vehicle | None
+) -> None:
+    """0 ticks are no rest: they are as far back and to the right as the servos go."""
+    operator.vehicles.samples += [sample(vehicle)] if vehicle else []
+    operator.beat(10.0)
+    operator.publisher.publish(Pwm(390, 400))
+    operator.publisher.let_go()
+    assert len(operator.zenoh.puts) == 1
+    operator.beat(10.1)
+    operator.publisher.publish(Pwm(390, 400))
+    assert operator.proof.began == 10.1
+
+
+def test_who_commands_nothing_has_nothing_to_let_go() -> None:
+    zenoh = ZenohPublisher()
+    publisher = Publisher(zenoh, (String,))
+    publisher.let_go()
+    assert (zenoh.puts, publisher.refused) == ([], "")
+
+
+def test_whoever_publishes_hears_that_it_is_refused(operator: Operator) -> None:
+    operator.beat(10.0)
+    operator.publisher.publish(FORWARD)
+    assert operator.publisher.refused == ""
+    operator.refusals.samples.append(sample(Refusals([Refused("ff", "program", "not now", 0.6)], "", 0)))
+    operator.publisher.publish(FORWARD)
+    assert operator.publisher.refused == "not now"
 
 
 def test_it_listens_before_it_acts_and_before_it_proves(operator: Operator) -> None:

@@ -1,6 +1,8 @@
 import pytest
 
-from zteleop.control.command import to_command
+from zteleop.control.command import neutral, to_command
+from zteleop.control.drive import DriveSettings
+from zteleop.control.report import describe
 from zteleop.errors import MessageError
 from zteleop.messages import (
     Header,
@@ -45,3 +47,21 @@ def test_each_type_of_command_is_a_twist_or_pulses(message: Message, command: Tw
 def test_what_commands_nothing_is_refused_in_words(message: Message, words: str) -> None:
     with pytest.raises(MessageError, match=words):
         to_command(message)
+
+
+@pytest.mark.parametrize(
+    ("kind", "command"),
+    [
+        (Twist, Twist.zero()),
+        (TwistStamped, TwistStamped.zero()),
+        (Pwm, Pwm(375, 370)),
+        (Int16MultiArray, ticks(375, 370)),
+    ],
+)
+def test_each_type_of_command_has_a_neutral(kind: type[Message], command: Message) -> None:
+    assert neutral(kind, describe(DriveSettings(), 4.08)) == command
+
+
+def test_pulses_of_an_unknown_vehicle_have_none() -> None:
+    assert neutral(Pwm, None) is None
+    assert neutral(Twist, None) == Twist.zero()

@@ -51,3 +51,13 @@ def test_a_new_epoch_forgets_act_and_beginning() -> None:
     assert (proof.epoch, proof.acted, proof.began) == (2, NEVER, NEVER)
     prover.act(beat(3.1, epoch=2))
     assert prover.prove(beat(3.1, epoch=2), True, 0.2).began == NEVER
+
+
+def test_a_claim_that_is_let_go_begins_anew() -> None:
+    prover = Prover(7)
+    for time in (10.0, 10.1):
+        prover.act(beat(time))
+        prover.prove(beat(time), True, time)
+        prover.let_go()
+    prover.act(beat(10.2))
+    assert prover.prove(beat(10.2), True, 10.2).began == 10.2

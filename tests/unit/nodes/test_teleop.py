@@ -425,3 +425,13 @@ def test_a_stop_typed_while_the_process_stood_still_counts_and_a_release_does_no
         desk.tick()
         assert [stop.engaged for stop in desk.stops.take()] == said
         assert desk.device.stop_wish is None
+
+
+def test_its_own_refusal_is_shown_unless_the_robots_sentence_says_it(desk: Desk) -> None:
+    desk.hear_state("idle")
+    desk.twists.refused = "it is too old (deaf)"
+    desk.tick(2)
+    assert desk.views[-1].note == "it is too old (deaf)"
+    desk.twists.refused = "it is idle"
+    desk.tick(2)
+    assert desk.views[-1].note == ""

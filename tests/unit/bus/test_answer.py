@@ -1,0 +1,168 @@
+import pytest
+from unit.bus.fakes import Clock, Ring, sample
+
+from zteleop.bus import codec
+from zteleop.bus.answer import ADVICE, LASTS, UNHEARD, Answer
+from zteleop.bus.heard import Heard
+from zteleop.bus.log import NodeLog
+from zteleop.bus.subscription import Subscription
+from zteleop.control.gate import Refusal
+from zteleop.messages import Beat, Message, Refusals, Refused, Vehicle
+
+WORDS = "not now"
+
+
+class Sender:
+    """A publisher of cmd_vel, what it hears of its robot, and what its log says."""
+
+    def __init__(self, clock: Clock) -> None:
+        self.clock, self.beats, self.refusals = clock, Ring(), Ring()
+        self.heard = Heard(inbox(self.beats, Beat), inbox(Ring(), Vehicle), inbox(self.refusals, Refusals))
+        self.lines: list[str] = []
+        self.answer = Answer(
+            "ff", "cmd_vel", "archangel", self.heard, NodeLog("nose", lambda log: None, self.lines.append)
+        )
+
+    def refuse(self, why: str = WORDS, sender: str = "ff", rest: str = "") -> None:
+        self.refusals.samples.append(sample(Refusals([Refused(sender, "program", why, 0.6)], rest, 0)))
+
+    def say(
+        self, seconds: float = 0.0, beats: bool = True, moving: bool = True, listens: bool = True
+    ) -> None:
+        """Publish ten times a second."""
+        for _ in range(round(seconds * 10) or 1):
+            self.clock.pass_by(0.1)
+            if beats:
+                self.beats.samples.append(sample(Beat(1, self.clock.time)))
+            if listens:
+                self.heard.listen()
+            self.answer.heed(moving)
+
+    @property
+    def news(self) -> list[str]:
+        lines, self.lines[:] = list(self.lines), []
+        return lines
+
+
+def inbox(ring: Ring, kind: type[Message]) -> Subscription:
+    return Subscription(ring, codec.decoders([kind]), pytest.fail)
+
+
+@pytest.fixture
+def sender(clock: Clock) -> Sender:
+    return Sender(clock)
+
+
+def test_while_all_is_well_nothing_is_said(sender: Sender) -> None:
+    sender.say(5.0)
+    assert (sender.answer.refused, sender.news) == ("", [])
+
+
+def test_a_refusal_is_said_once_in_the_robots_words(sender: Sender) -> None:
+    for _ in range(10):
+        sender.refuse()
+        sender.say(0.2)
+        assert sender.answer.refused == WORDS
+    assert sender.news == ["nose: warning: cmd_vel is refused by robot archangel: not now"]
+
+
+@pytest.mark.parametrize("why", Refusal)
+def test_it_says_what_to_do(sender: Sender, why: str) -> None:
+    sender.refuse(why)
+    sender.say()
+    (line,) = sender.news
+    assert f"{why}; {ADVICE[why]}" in line if why in ADVICE else ";" in why
+
+
+def test_what_keeps_the_robot_at_rest_is_said_with_it(sender: Sender) -> None:
+    sender.refuse(rest="stopped by ann")
+    sender.say()
+    assert sender.answer.refused == "not now (stopped by ann)"
+
+
+def test_another_reason_is_said_too(sender: Sender) -> None:
+    for why in ("one", "one", "two"):
+        sender.refuse(why)
+        sender.say()
+    assert [line.rpartition(" ")[2] for line in sender.news] == ["one", "two"]
+
+
+def test_what_another_sender_is_told_is_not_ours(sender: Sender) -> None:
+    sender.refuse(sender="fe")
+    sender.say()
+    assert (sender.answer.refused, sender.news) == ("", [])
+
+
+def test_when_the_robot_names_it_no_longer_it_counts_again(sender: Sender) -> None:
+    sender.refuse()
+    sender.say()
+    sender.refuse(sender="fe")
+    sender.say()
+    assert sender.answer.refused == ""
+    assert sender.news[1:] == ["nose: info: what is said on cmd_vel is no longer refused by robot archangel"]
+
+
+def test_a_refusal_that_is_not_repeated_is_over(sender: Sender) -> None:
+    sender.refuse()
+    sender.say()
+    sender.say(LASTS - 0.1)
+    assert len(sender.news) == 1
+    sender.say(0.3)
+    assert "no longer refused" in sender.news[0]
+
+
+def test_who_says_nothing_does_not_know(sender: Sender, clock: Clock) -> None:
+    sender.refuse()
+    sender.say()
+    clock.pass_by(LASTS + 0.1)
+    assert sender.answer.refused == ""
+    assert len(sender.news) == 1
+
+
+def test_a_robot_that_is_not_heard_is_missed_once_and_its_return_said(sender: Sender) -> None:
+    sender.say(1.0)
+    sender.say(UNHEARD - 0.1, beats=False)
+    assert sender.news == []
+    sender.say(5.0, beats=False)
+    (line,) = sender.news
+    assert line.startswith("nose: warning: robot archangel is not heard any more; what is said on cmd_vel")
+    sender.say(2.0)
+    assert sender.news == ["nose: info: robot archangel is heard; what is said on cmd_vel reaches it"]
+
+
+def test_a_robot_that_was_never_heard_is_missed(sender: Sender) -> None:
+    sender.say(UNHEARD + 0.2, beats=False)
+    assert "is not heard; what" in sender.news[0]
+
+
+def test_who_was_told_at_the_start_is_not_told_again(sender: Sender) -> None:
+    sender.answer.miss()
+    sender.say(3.0, beats=False)
+    assert len(sender.news) == 1
+    sender.say()
+    assert "is heard" in sender.news[0]
+
+
+def test_who_moves_nothing_misses_nobody(sender: Sender) -> None:
+    sender.say(3.0, beats=False, moving=False)
+    assert sender.news == []
+
+
+def test_in_a_long_handler_nobody_is_missed_and_a_refusal_is_heard(sender: Sender) -> None:
+    sender.say(1.0)
+    sender.refuse()
+    sender.say(3.0, beats=False, listens=False)
+    assert [line.partition(" is ")[0] for line in sender.news] == [
+        "nose: warning: cmd_vel",
+        "nose: info: what",
+    ]
+
+
+def test_a_robot_that_is_gone_refuses_nothing(sender: Sender) -> None:
+    sender.refuse()
+    sender.say()
+    sender.say(UNHEARD + 0.2, beats=False)
+    assert sender.answer.refused == ""
+    sender.refuse()
+    sender.say()
+    assert sum("is refused" in line for line in sender.news) == 2

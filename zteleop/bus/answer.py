@@ -1,0 +1,86 @@
+"""What a robot answers to one publisher of commands: they count, they do not, or it is not heard at all."""
+
+from zteleop.bus import clock
+from zteleop.bus.heard import NEVER, Heard
+from zteleop.bus.log import NodeLog
+from zteleop.control.gate import Refusal
+from zteleop.messages import Refusals
+
+UNHEARD = 1.0
+"""s without a beat while somebody commands"""
+LASTS = 1.0
+"""s that a refusal holds which the robot does not repeat"""
+ANEW = "when whoever watches the robot wants it to move, start this anew (a program may let_go())"
+ADVICE: dict[str, str] = {
+    Refusal.EARLIER_START: ANEW,
+    Refusal.NOT_FROM_NEUTRAL: ANEW,
+    Refusal.AT_REST: ANEW,
+    Refusal.STALE: "look at the link, and keep every handler shorter than 0.3 s",
+    Refusal.REPLAYED: "publish from one place",
+    Refusal.OPERATOR_IDLE: "act again",
+    Refusal.HELD: "wait until that one lets go, then begin anew",
+}
+"""What to do, where the robot's own words are not enough."""
+
+
+class Answer:
+    """Follows what the robot says to one sender, and says to its log what changed."""
+
+    def __init__(self, sender: str, topic: str, robot: str, heard: Heard, log: NodeLog) -> None:
+        self._sender, self._topic, self._robot = sender, topic, robot
+        self._heard, self._log = heard, log
+        self._since, self._unheard = clock.now(), False
+        self._told: Refusals | None = heard.refusals
+        self._words, self._at = "", NEVER
+
+    @property
+    def refused(self) -> str:
+        """The robot's words; nothing while what is said counts, or nobody knows."""
+        return self._words if clock.now() - self._at <= LASTS else ""
+
+    def miss(self) -> None:
+        """Say that the robot has not been heard."""
+        self._since, self._unheard, self._words = NEVER, True, ""
+        more = " any more" if self._heard.beat else ""
+        self._log.warn(
+            f"robot {self._robot} is not heard{more}; what is said on {self._topic} moves nothing "
+            "until its actuator is on (zteleop list shows who is)"
+        )
+
+    def heed(self, moving: bool) -> None:
+        """Take in what the robot has answered; only who wants to move something misses it."""
+        self._heard.listen_for_refusals()
+        self._notice_robot(moving)
+        self._notice_refusal(moving)
+
+    def _notice_robot(self, moving: bool) -> None:
+        # Since it was last listened for: in a long handler nobody does.
+        unheard = self._heard.listened - max(self._heard.at, self._since) > UNHEARD
+        if unheard and moving and not self._unheard:
+            self.miss()
+        elif self._unheard and not unheard:
+            self._unheard = False
+            self._log.info(f"robot {self._robot} is heard; what is said on {self._topic} reaches it")
+
+    def _notice_refusal(self, moving: bool) -> None:
+        now, told = clock.now(), self._heard.refusals
+        if told and told is not self._told:
+            self._told = told
+            words, advice = self._find(told)
+            self._at = now if words else self._at
+            self._say(words, advice)
+        elif moving and self._words and now - self._at > LASTS:
+            self._say("", "")
+
+    def _find(self, told: Refusals) -> tuple[str, str]:
+        why = next((refused.why for refused in told.refused if refused.sender == self._sender), "")
+        rest = f" ({told.rest})" if why and told.rest else ""
+        return why + rest, ADVICE.get(why, "")
+
+    def _say(self, words: str, advice: str) -> None:
+        before, self._words = self._words, words
+        if words and words != before:
+            todo = f"; {advice}" if advice else ""
+            self._log.warn(f"{self._topic} is refused by robot {self._robot}: {words}{todo}")
+        elif before and not words:
+            self._log.info(f"what is said on {self._topic} is no longer refused by robot {self._robot}")
