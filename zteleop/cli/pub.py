@@ -3,15 +3,16 @@ from typing import Any
 
 import msgspec
 
+from zteleop.bus import clock
 from zteleop.bus.names import resolve
 from zteleop.bus.node import Node
 from zteleop.bus.publisher import Publisher
 from zteleop.bus.topics import topic_of
 from zteleop.cli import options
-from zteleop.control.stick import neutral_pwm
+from zteleop.control.resume import Resume
 from zteleop.errors import BusError, MessageError
 from zteleop.interfaces.values import fill
-from zteleop.messages import Int16MultiArray, Message, Pwm, Vehicle, message_type
+from zteleop.messages import DriveStatus, Message, message_type
 
 PATIENCE = 3.0
 SETTLE = 0.1
@@ -26,6 +27,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-r", "--rate", metavar="HZ", type=_rate_hz, default=1.0, help="default: 1")
     parser.add_argument("-1", "--once", action="store_true", help="say it once and end")
     parser.add_argument("-t", "--times", metavar="N", type=options.count, help="say it N times and end")
+    parser.add_argument(
+        "--resume",
+        action="store_true",
+        help="drive on by itself after the robot was restarted or the link was long lost; never after a stop",
+    )
 
 
 def run(arguments: argparse.Namespace) -> None:
@@ -38,18 +44,31 @@ def run(arguments: argparse.Namespace) -> None:
         name = resolve(arguments.topic, node.robot)
         publisher = node.publisher(f"/{name.robot}/{name.path}", kind, wait=False)
         _wait(node, publisher, topic_of(name.path).command)
-        _say(node, publisher, message, arguments.rate, times)
+        resume = Resume(publisher.sender) if arguments.resume and publisher.sender else None
+        _say(node, publisher, message, arguments.rate, times, resume)
 
 
-def _say(node: Node, publisher: Publisher[Message], message: Message, rate: float, times: int | None) -> None:
+def _say(
+    node: Node,
+    publisher: Publisher[Message],
+    message: Message,
+    rate: float,
+    times: int | None,
+    resume: Resume | None = None,
+) -> None:
     """Say a message again and again; a repeated motion ends with a neutral."""
     said = 0
+    if resume:
+        node.subscription("drive_status", DriveStatus, lambda received: resume.heed(received.message))
 
     @node.every(1 / rate)
     def say() -> None:
         nonlocal said
         said += 1
         print(f"publishing #{said}: {message}\n", flush=True)
+        if resume and resume.may(node.heard().refusals, clock.now()):
+            node.log.warn("begins anew by itself, as --resume says")
+            publisher.let_go()
         publisher.publish(message)
         if said == times:
             node.stop()
@@ -57,20 +76,8 @@ def _say(node: Node, publisher: Publisher[Message], message: Message, rate: floa
     try:
         node.spin()
     finally:
-        rest = _rest(message, node.heard().vehicle) if said != times and publisher.sender else None
-        if rest:
-            publisher.publish(rest)
-
-
-def _rest(message: Message, vehicle: Vehicle | None) -> Message | None:
-    """Return the neutral command of the same type, if there is one; of pulses, 0 is none."""
-    if not isinstance(message, Pwm | Int16MultiArray):
-        return type(message).zero()
-    if vehicle is None or vehicle.kind != "ackermann":
-        return None
-    pwm = neutral_pwm(vehicle)
-    neutral = [pwm.steering_ticks, pwm.throttle_ticks]
-    return pwm if isinstance(message, Pwm) else Int16MultiArray(message.layout, neutral)
+        if said != times:
+            publisher.let_go()
 
 
 def _wait(node: Node, publisher: Publisher[Message], command: bool) -> None:

@@ -1,41 +1,30 @@
 import argparse
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from unit.bus.fakes import Clock
 from unit.nodes.fakes import Node, Said
 
-from zteleop.bus.publisher import moves
 from zteleop.cli import pub
-from zteleop.control.drive import DriveSettings
-from zteleop.control.mixer import Differential
-from zteleop.control.report import describe
-from zteleop.control.servo import Servo
+from zteleop.control.gate import Refusal
+from zteleop.control.resume import Resume
 from zteleop.errors import MessageError
-from zteleop.messages import (
-    Header,
-    Int16MultiArray,
-    Message,
-    MultiArrayLayout,
-    Pwm,
-    String,
-    Twist,
-    TwistStamped,
-    Vehicle,
-)
+from zteleop.messages import DriveStatus, Message, Refusals, Refused, Twist
 
-CAR = describe(DriveSettings(), 4.08)
-TANK = describe(
-    DriveSettings(mixer=Differential(), servos={"left": Servo(channel=0), "right": Servo(channel=1)}), 4.08
-)
 FORWARD = Twist.planar(0.5)
 
 
 def say(
-    message: Message, times: int | None, ticks: int, vehicle: Vehicle | None = CAR, sender: str = "ff"
+    message: Message,
+    times: int | None,
+    ticks: int,
+    said: Said | None = None,
+    node: Node | None = None,
+    resume: Resume | None = None,
 ) -> list[Any]:
     """Return what is said within so many ticks, ended by Ctrl-C."""
-    node, said = Node(), Said("cmd_vel", sender)
-    node.robot_heard.vehicle = vehicle
+    node, said = node or Node(), said or Said("cmd_vel", "ff")
 
     def spin() -> None:
         for _ in range(ticks):
@@ -46,7 +35,7 @@ def say(
 
     node.spin = spin
     try:
-        pub._say(node, said, message, 10.0, times)
+        pub._say(node, said, message, 10.0, times, resume)
     except KeyboardInterrupt:
         assert times is None
     return said.messages
@@ -58,31 +47,42 @@ def test_it_says_it_so_many_times(times: int, capsys: pytest.CaptureFixture[str]
     assert capsys.readouterr().out.startswith("publishing #1: Twist(linear=")
 
 
-@pytest.mark.parametrize(
-    "message",
-    [
-        FORWARD,
-        TwistStamped(Header.zero(), FORWARD),
-        Pwm(390, 400),
-        Int16MultiArray(MultiArrayLayout.zero(), [390, 400]),
-    ],
-    ids=lambda message: type(message).__name__,
-)
-def test_a_repeated_motion_ends_with_the_vehicles_own_neutral(message: Message) -> None:
-    *said, last = say(message, None, 5)
-    assert said == [message] * 5
-    assert type(last) is type(message)
-    assert not moves(last, CAR)
+def test_what_is_repeated_is_let_go_at_the_end() -> None:
+    said = Said("cmd_vel", "ff")
+    say(FORWARD, None, 5, said)
+    assert (said.messages, said.lets_go) == ([FORWARD] * 5, 1)
 
 
-@pytest.mark.parametrize("vehicle", [None, TANK])
-def test_pulses_of_an_unknown_neutral_end_with_nothing_that_moves(vehicle: Vehicle | None) -> None:
-    """0 ticks are no rest: they are as far back and to the right as the servos go."""
-    assert say(Pwm(390, 400), None, 3, vehicle) == [Pwm(390, 400)] * 3
+def test_what_is_said_so_many_times_stays_said() -> None:
+    said = Said("cmd_vel", "ff")
+    say(FORWARD, 3, 10, said)
+    assert said.lets_go == 0
 
 
-def test_what_is_no_command_ends_with_nothing() -> None:
-    assert say(String("hello"), None, 3, sender="") == [String("hello")] * 3
+@pytest.mark.parametrize(("released", "lets_go"), [(4, 1), (5, 0)], ids=["restarted", "stopped meanwhile"])
+def test_it_begins_anew_as_it_resumes(clock: Clock, released: int, lets_go: int) -> None:
+    node, said, resume = Node(), Said("cmd_vel", "ff"), Resume("ff")
+    resume.heed(status(4))
+    refused = Refused("ff", "program", Refusal.EARLIER_START, 0.6)
+    node.robot_heard.refusals = Refusals([refused], "", released)
+    say(FORWARD, 3, 3, said, node, resume)
+    assert said.lets_go == lets_go
+    assert said.messages == [FORWARD] * 3
+
+
+def test_it_follows_what_the_robot_does_to_know_of_a_stop(clock: Clock) -> None:
+    node, resume = Node(), Resume("ff")
+    say(FORWARD, 1, 1, None, node, resume)
+    for number in (4, 5):
+        node.inboxes["drive_status"].handler(SimpleNamespace(message=status(number)))
+    refused = Refused("ff", "program", Refusal.EARLIER_START, 0.6)
+    assert not resume.may(Refusals([refused], "", 4), clock.time)
+
+
+def status(released: int) -> DriveStatus:
+    status = DriveStatus.zero()
+    status.state, status.released = "idle", released
+    return status
 
 
 @pytest.mark.parametrize(

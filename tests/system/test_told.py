@@ -1,0 +1,117 @@
+"""Whoever is refused is told at the own end, and what a program does about it on purpose."""
+
+import signal
+
+from rig import NEUTRAL, Process, Rig, Watch, every, hear, until
+
+from zteleop.chaos.cable import Cable
+from zteleop.messages import DriveStatus
+
+PROGRAM = """
+from zteleop import BusSettings, Node, Twist
+
+with Node("pub_motor", robot="bench", bus=BusSettings(connect=["{endpoint}"], multicast=False)) as node:
+    motors = node.publisher("cmd_vel", Twist, source="buttons")
+    then = ""
+
+    @node.every(0.1)
+    def turn() -> None:
+        global then
+        motors.publish(Twist.planar(linear=0.2, angular=0.4))
+        if motors.refused != then:
+            then = motors.refused
+            print("refused is now", repr(then), flush=True)
+
+    node.spin()
+"""
+DRIVE = ("pub", "cmd_vel", "Twist", "{linear: {x: 0.3}}", "-r", "10")
+REFUSED = "cmd_vel is refused by robot bench: it was m"
+
+
+def moves(rig: Rig) -> None:
+    until(lambda: rig.ticks not in (NEUTRAL, (None, None)), "motion")
+
+
+def restart(rig: Rig, actuator: Process) -> Process:
+    actuator.signal(signal.SIGKILL)
+    actuator.ends()
+    until(lambda: rig.ticks == NEUTRAL, "neutral")
+    return rig.actuator()
+
+
+def release(rig: Rig) -> None:
+    assert rig.result("stop", "--release", *rig.bus_options()).returncode == 0
+
+
+def test_a_restarted_robot_is_told_of_by_a_shell_and_by_a_program(rig: Rig) -> None:
+    actuator = rig.actuator()
+    shell = rig.join(*DRIVE)
+    moves(rig)
+    program = rig.program(PROGRAM.replace("{endpoint}", rig.endpoint))
+    statuses = rig.node().subscription("drive_status", DriveStatus)
+    hear(statuses, lambda status: status.source == "buttons", "the program")
+    restart(rig, actuator)
+    with Watch(rig) as watch:
+        assert shell.says(f"warning: {REFUSED}").startswith("pub: ")
+        program.says(f"pub_motor: warning: {REFUSED}")
+        program.says("refused is now 'it was m")
+        said = len(shell.lines)
+        until(lambda: len(shell.lines) > said + 20, "the shell to go on")
+    assert watch.seen == {NEUTRAL}
+    assert shell.text.count("is refused") == 1
+    shell.signal(signal.SIGINT)
+    assert shell.ends() == 130
+
+
+def test_a_robot_that_is_gone_and_comes_back_is_told_of(rig: Rig) -> None:
+    actuator = rig.actuator()
+    shell = rig.join(*DRIVE)
+    moves(rig)
+    actuator.signal(signal.SIGKILL)
+    actuator.ends()
+    shell.says("robot bench is not heard any more; what is said on cmd_vel moves nothing")
+    rig.actuator()
+    shell.says("robot bench is heard; what is said on cmd_vel reaches it")
+
+
+def test_who_typed_resume_drives_on_after_a_restart_and_not_after_a_stop(rig: Rig) -> None:
+    actuator = rig.actuator()
+    shell = rig.join(*DRIVE, "--resume")
+    moves(rig)
+    again = restart(rig, actuator)
+    shell.says("begins anew by itself")
+    moves(rig)
+    assert rig.result("stop", *rig.bus_options()).returncode == 0
+    until(lambda: rig.ticks == NEUTRAL, "neutral")
+    shell.says("is kept at rest")
+    release(rig)
+    with Watch(rig) as watch:
+        until(lambda: shell.text.count(REFUSED) == 2, "a second refusal")
+        for _ in every(0.1, 20):
+            pass
+        restart(rig, again).says("program is refused")
+        for _ in every(0.1, 20):
+            pass
+    assert watch.seen == {NEUTRAL}
+    assert shell.text.count("begins anew by itself") == 1
+
+
+def test_a_stop_that_came_and_went_while_the_link_was_cut_needs_a_person(rig: Rig) -> None:
+    """Nobody but the robot can tell of that stop, and the robot itself was restarted since."""
+    actuator = rig.actuator()
+    with Cable(rig.port) as cable:
+        shell = rig.run(*DRIVE, "--resume", *rig.bus_options(f"tcp/127.0.0.1:{cable.port}"))
+        moves(rig)
+        cable.cut()
+        until(lambda: rig.ticks == NEUTRAL, "neutral")
+        assert rig.result("stop", *rig.bus_options()).returncode == 0
+        release(rig)
+        again = restart(rig, actuator)
+        with Watch(rig) as watch:
+            cable.mend()
+            again.says("program is refused")
+            shell.says("cmd_vel is refused")
+            for _ in every(0.1, 20):
+                pass
+        assert watch.seen == {NEUTRAL}
+    assert "begins anew" not in shell.text
