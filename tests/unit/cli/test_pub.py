@@ -73,10 +73,13 @@ def test_it_begins_anew_as_it_resumes(clock: Clock, released: int, lets_go: int)
 def test_it_follows_what_the_robot_does_to_know_of_a_stop(clock: Clock) -> None:
     node, resume = Node(), Resume("ff")
     say(FORWARD, 1, 1, None, node, resume)
+    refused = Refused("ff", "program", Refusal.EARLIER_START, 0.6)
+    may = []
     for number in (4, 5):
         node.inboxes["drive_status"].handler(SimpleNamespace(message=status(number)))
-    refused = Refused("ff", "program", Refusal.EARLIER_START, 0.6)
-    assert not resume.may(Refusals([refused], "", 4), clock.time)
+        clock.pass_by(10.0)
+        may.append(resume.may(Refusals([refused], "", 4), clock.time))
+    assert may == [True, False]
 
 
 def status(released: int) -> DriveStatus:
