@@ -32,6 +32,13 @@ def moves(rig: Rig) -> None:
     until(lambda: rig.ticks not in (NEUTRAL, (None, None)), "motion")
 
 
+def drives(rig: Rig, shell: Process) -> None:
+    """Wait until a shell drives, and has had time to hear that it does."""
+    moves(rig)
+    said = len(shell.lines)
+    until(lambda: len(shell.lines) > said + 20, "ten more commands")
+
+
 def restart(rig: Rig, actuator: Process) -> Process:
     actuator.signal(signal.SIGKILL)
     actuator.ends()
@@ -77,10 +84,10 @@ def test_a_robot_that_is_gone_and_comes_back_is_told_of(rig: Rig) -> None:
 def test_who_typed_resume_drives_on_after_a_restart_and_not_after_a_stop(rig: Rig) -> None:
     actuator = rig.actuator()
     shell = rig.join(*DRIVE, "--resume")
-    moves(rig)
+    drives(rig, shell)
     again = restart(rig, actuator)
     shell.says("begins anew by itself")
-    moves(rig)
+    drives(rig, shell)
     assert rig.result("stop", *rig.bus_options()).returncode == 0
     until(lambda: rig.ticks == NEUTRAL, "neutral")
     shell.says("is kept at rest")
@@ -101,7 +108,7 @@ def test_a_stop_that_came_and_went_while_the_link_was_cut_needs_a_person(rig: Ri
     actuator = rig.actuator()
     with Cable(rig.port) as cable:
         shell = rig.run(*DRIVE, "--resume", *rig.bus_options(f"tcp/127.0.0.1:{cable.port}"))
-        moves(rig)
+        drives(rig, shell)
         cable.cut()
         until(lambda: rig.ticks == NEUTRAL, "neutral")
         assert rig.result("stop", *rig.bus_options()).returncode == 0

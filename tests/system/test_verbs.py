@@ -24,6 +24,7 @@ TOPICS = [
     "/bench/drive_status",
     "/bench/log",
     "/bench/pwm",
+    "/bench/refusals",
     "/bench/stop",
     "/bench/vehicle",
     "/bench/watchdog",

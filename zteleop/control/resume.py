@@ -25,8 +25,8 @@ class Resume:
         self._began = NEVER
 
     def heed(self, status: DriveStatus) -> None:
-        """Take in what the robot does; the first status counts as one that obeys."""
-        if status.operator == self._sender or self._released is None:
+        """Take in what the robot does: a status that obeys this sender names the stop that was over then."""
+        if status.operator == self._sender:
             self._released, self._stopped = status.released, False
         self._stopped |= status.stop != 0 or status.state == "stopped" or status.released != self._released
 

@@ -75,16 +75,16 @@ def test_it_follows_what_the_robot_does_to_know_of_a_stop(clock: Clock) -> None:
     say(FORWARD, 1, 1, None, node, resume)
     refused = Refused("ff", "program", Refusal.EARLIER_START, 0.6)
     may = []
-    for number in (4, 5):
-        node.inboxes["drive_status"].handler(SimpleNamespace(message=status(number)))
+    for number, operator in ((4, "ff"), (5, "")):
+        node.inboxes["drive_status"].handler(SimpleNamespace(message=status(number, operator)))
         clock.pass_by(10.0)
         may.append(resume.may(Refusals([refused], "", 4), clock.time))
     assert may == [True, False]
 
 
-def status(released: int) -> DriveStatus:
+def status(released: int, operator: str = "ff") -> DriveStatus:
     status = DriveStatus.zero()
-    status.state, status.released = "idle", released
+    status.state, status.released, status.operator = "driving", released, operator
     return status
 
 

@@ -20,7 +20,6 @@ def refused(why: str = BEGAN_EARLIER, sender: str = "ff", rest: str = "", releas
 @pytest.fixture
 def resume() -> Resume:
     resume = Resume("ff")
-    resume.heed(status())
     resume.heed(status(operator="ff", state="driving"))
     return resume
 
@@ -67,6 +66,13 @@ def test_once_a_person_let_it_drive_after_a_stop_it_may_again(resume: Resume) ->
 
 def test_who_has_heard_nothing_of_the_robot_may_not() -> None:
     assert not Resume("ff").may(refused(), 10.0)
+
+
+def test_who_was_never_seen_to_be_obeyed_may_not() -> None:
+    """It may have been, and a stop have come and gone since, before the first word that it heard."""
+    resume = Resume("ff")
+    resume.heed(status(released=5))
+    assert not resume.may(refused(released=5), 10.0)
 
 
 def test_who_began_under_a_stop_may_not_when_it_is_released() -> None:
