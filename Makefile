@@ -27,12 +27,14 @@ bench: .venv/installed-dev
 	@for name in key_to_wheel publish_to_handler control_and_codec shell idle_cost flood; do \
 		$(BIN)/python benchmarks/$$name.py || exit 1; done
 
-# About two hours: each fault 50 times, every failure in every state, bad links, half an hour of floods.
+# About three hours: each fault 50 times, every failure in every state, bad links, half an hour of floods, an hour
+# of driving under load.
 soak: .venv/installed-dev
 	$(BIN)/zteleop chaos --times 50
 	cd tests && ../$(BIN)/python -m faults.matrix
 	cd tests && ../$(BIN)/python -m faults.link.table
 	cd tests && ../$(BIN)/python -m faults.endurance
+	$(BIN)/python benchmarks/under_load.py --seconds 600
 
 fuzz: .venv/installed-dev
 	@$(BIN)/pip install --quiet --disable-pip-version-check --editable '.[fuzz]'

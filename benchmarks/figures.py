@@ -9,12 +9,17 @@ from collections.abc import Sequence
 TABLE_GAP = "  "
 
 
-def is_quick(description: str) -> bool:
-    """Parse the command line of a script; True for a run of a few seconds."""
+def command_line(description: str) -> argparse.ArgumentParser:
+    """Return what parses the command line of a script, with what every script takes."""
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("--quick", action="store_true", help="a run of a few seconds: rough figures")
     signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))  # ends what was started
-    return bool(parser.parse_args().quick)
+    return parser
+
+
+def is_quick(description: str) -> bool:
+    """Parse the command line of a script; True for a run of a few seconds."""
+    return bool(command_line(description).parse_args().quick)
 
 
 def p99(samples: Sequence[float]) -> float:

@@ -25,7 +25,7 @@ from zteleop.drivers.simulated import open_registers
 ZTELEOP = str(Path(sys.executable).with_name("zteleop"))
 RAW_LINE = str(Path(__file__).with_name("raw_line.py"))
 ROBOT = "bench"
-LEFT, RIGHT = b"\x1b[D", b"\x1b[C"
+UP, LEFT, RIGHT = b"\x1b[A", b"\x1b[D", b"\x1b[C"
 LOOK_EVERY = 20e-6
 LONGEST = 0.5
 
@@ -62,8 +62,11 @@ class Robot:
 
     def start(self, verb: str, *arguments: str, **options: object) -> "subprocess.Popen[str]":
         """Start a verb for this robot, as long as the robot's `with` lasts."""
-        command = [ZTELEOP, verb, "--robot", ROBOT, "--no-multicast-scouting", *arguments]
-        return self.start_program(command, **options)
+        return self.start_program(self.command(verb, *arguments), **options)
+
+    def command(self, verb: str, *arguments: str) -> list[str]:
+        """Return a verb for this robot as it is typed."""
+        return [ZTELEOP, verb, "--robot", ROBOT, "--no-multicast-scouting", *arguments]
 
     def start_program(self, command: Sequence[str], **options: object) -> "subprocess.Popen[str]":
         """Start any program, as long as the robot's `with` lasts."""
@@ -111,10 +114,14 @@ class Operator:
             raise SystemExit(f"it ended at once: {' '.join(map(str, self.process.args))}")
         Path("/proc/self/timerslack_ns").write_text("1")
 
+    def type(self, key: bytes) -> None:
+        """Send a key, whatever comes of it."""
+        os.write(self._master, key)
+
     def press(self, key: bytes) -> float | None:
         """Press a key; return the seconds until the chip changed, None when it did not."""
         before, pressed = self._robot.outputs(), time.perf_counter()
-        os.write(self._master, key)
+        self.type(key)
         while self._robot.outputs() == before:
             if time.perf_counter() - pressed > LONGEST:
                 return None
