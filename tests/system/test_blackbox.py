@@ -219,9 +219,10 @@ HOSTILE: dict[str, Callable[[Any, str], object]] = {
 
 def test_whatever_is_said_it_is_told_and_nobody_dies(bench: Bench) -> None:
     recorder = bench.recorder
-    session = bench.rig.session()
-    odd = bench.rig.node("odd").publisher("odd", String)
+    node = bench.rig.node("odd")
+    odd = node.publisher("odd", String)
     until(lambda: odd.matched, "the black box")
+    session = node.session  # another would learn of the black box later
     for say in HOSTILE.values():
         say(session, bench.rig.robot)
     bench.rig.result("stop", *bench.rig.bus_options())
