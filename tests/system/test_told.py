@@ -20,7 +20,7 @@ with Node("pub_motor", robot="bench", bus=BusSettings(connect=["{endpoint}"], mu
         motors.publish(Twist.planar(linear=0.2, angular=0.4))
         if motors.refused != then:
             then = motors.refused
-            print("refused is now", repr(then), flush=True)
+            print(f"refused is now {then!r}", flush=True)
 
     node.spin()
 """
