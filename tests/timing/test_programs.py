@@ -4,7 +4,7 @@ import signal
 from collections.abc import Iterator
 
 import pytest
-from rig import NEUTRAL, Rig, Watch, repeating, until
+from rig import NEUTRAL, Rig, repeating, until
 from verdict import Deadline, excusable
 
 from zteleop.bus import clock
@@ -114,7 +114,7 @@ def test_a_slow_handler_delays_another_topic_by_one_run_at_most(rig: Rig) -> Non
     slow, fast = node.publisher("slow", String), node.publisher("fast", String)
     until(lambda: slow.matched and fast.matched, "somebody who listens")
     with excusable(0.03, rig):
-        with repeating(lambda: slow.publish(String("x")), 0.005), Watch(rig):
+        with repeating(lambda: slow.publish(String("x")), 0.005):
             for number in range(4):
                 fast.publish(String(str(clock.now())))
                 until(lambda number=number: len(listener.lines) > number + 1, "the newest")

@@ -79,7 +79,7 @@ class Certificate(Struct, frozen=True):
         if not (void := sum(v.void for v in self.verdicts)):
             return []
         longest = max(v.longest_wait for v in self.verdicts)
-        words = f"{void} trials void: late only because their processes waited for a core"
+        words = f"void trials: {void}, late only because their processes waited for a core"
         return [f"{words} (longest wait {longest * 1000:.1f} ms)"]
 
 

@@ -179,9 +179,8 @@ class Drive:
         moving = self._moves(command)
         unproven = proof is None and self._sources[source].trust == "arrival"
         if unproven and moving and now - self.mux.interrupted <= self.settings.deadlines.max_age:
-            return self._refuse(
-                source, Refusal.INTERRUPTED, now
-            )  # nobody can prove that it is not from before
+            # Nobody can prove that it was not said before the interruption ended, and queued meanwhile.
+            return self._refuse(source, Refusal.INTERRUPTED, now)
         if unproven:
             proof = self._vouch(source, moving, now)
         refusal = self._judge(source, command, proof, moving, now)

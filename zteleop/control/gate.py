@@ -96,10 +96,6 @@ class Gate:
             seen.right = seen.claim if goes_on else NEVER
             seen.floor = max(seen.floor, self._resumed)
 
-    def grant(self, sender: int, began: float, counted: float) -> None:
-        """Know the claim of a sender that counted before this gate was made."""
-        self._senders[sender] = Seen(0, NEVER, counted, True, self._floor, began, counted)
-
     def count(self, proof: Proof, now: float) -> None:
         """Note that a command counted."""
         if seen := self._senders.get(proof.sender):

@@ -94,13 +94,12 @@ class Mux:
         """Return the claim to obey, or None when nobody may drive."""
         for name in self._ranked:
             claim = self._claims.get(name)
-            if (
-                claim
-                and claim.at > self.interrupted
-                and not (self.silent(claim, now) or self.idle(claim, now))
-            ):
+            if claim and claim.at > self.interrupted and not self._over(claim, now):
                 return claim
         return None
+
+    def _over(self, claim: Claim, now: float) -> bool:
+        return self.silent(claim, now) or self.idle(claim, now)
 
     def silent(self, claim: Claim, now: float) -> bool:
         """Say whether a claim is over: nothing more was heard of its sender, or by its sender."""

@@ -29,7 +29,9 @@ def test_a_trial_that_only_the_machine_made_late_is_void_and_told() -> None:
     assert (found.times, found.void, found.worst, found.kept) == (2, 1, 0.004, True)
     assert found.line().endswith("4.0 ms   50.0 ms  kept, 1 void")
     told = certify("a car", [found], []).summary().splitlines()[1]
-    assert told == "1 trials void: late only because their processes waited for a core (longest wait 30.0 ms)"
+    assert (
+        told == "void trials: 1, late only because their processes waited for a core (longest wait 30.0 ms)"
+    )
 
 
 def test_waiting_excuses_no_more_than_itself_and_no_motion() -> None:
