@@ -19,6 +19,8 @@ _SHOWN = 20
 class ZteleopError(Exception):
     """The command line prints these in one sentence, without a traceback."""
 
+    exit_code = 1
+
 
 class ConfigError(ZteleopError, ValueError):
     """A setting or an argument cannot be obeyed."""

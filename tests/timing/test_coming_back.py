@@ -44,6 +44,37 @@ def test_a_program_that_goes_on_drives_on_after_a_moment(rig: Rig, robot: Proces
         assert "let go first" not in robot.text
 
 
+def test_a_program_drives_on_under_another_actuator_where_the_first_came_late(
+    rig: Rig, robot: Process
+) -> None:
+    late = robot.child
+    assert late
+    with excusable(0.1, rig), Watch(rig) as watch:
+        os.kill(late, signal.SIGSTOP)
+        robot.says("the actuator is gone: it was silent for 0.2")
+        robot.says("its actuator came late, and was started again; whoever drove goes on with the next act")
+        assert NEUTRAL in watch.seen
+        until(lambda: moves(rig), "motion")
+        assert robot.child not in (None, late)
+
+
+def test_a_program_drives_on_where_the_watchdog_came_late(rig: Rig, robot: Process) -> None:
+    with excusable(0.1, rig), Watch(rig) as watch:
+        robot.signal(signal.SIGSTOP)
+        until(lambda: NEUTRAL in watch.seen, "rest, by the actuator, which then ends")
+        robot.signal(signal.SIGCONT)
+        robot.says("whoever drove goes on with the next act")
+        until(lambda: moves(rig), "motion")
+
+
+def test_one_whose_actuator_crashed_is_started_and_waits(rig: Rig, robot: Process) -> None:
+    assert robot.child
+    os.kill(robot.child, signal.SIGKILL)
+    robot.says("is refused: it was moving before the robot started")
+    for _ in every(0.005, 200):
+        assert rig.ticks == NEUTRAL
+
+
 def test_after_a_long_one_it_waits_and_says_why(rig: Rig, robot: Process) -> None:
     hold_up(robot, LONG)
     robot.says("let go first")

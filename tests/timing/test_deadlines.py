@@ -138,21 +138,21 @@ def test_stale_commands_never_move_the_robot(rig: Rig) -> None:
                 assert rig.ticks == NEUTRAL
 
 
-def test_an_actuator_that_stood_still_waits_until_the_operator_lets_go(rig: Rig) -> None:
+def test_a_robot_whose_watchdog_stood_still_for_long_waits_until_the_operator_lets_go(rig: Rig) -> None:
     actuator = rig.actuator()
     node = rig.node()
     rig.hear(node)
     with operator(node):
         driven(rig)
         actuator.signal(signal.SIGSTOP)
-        for _ in every(0.02, 25):
+        for _ in every(0.02, 110):
             pass
         deadline = Deadline(rig)
         actuator.signal(signal.SIGCONT)
         deadline.met(lambda: rests(rig), "neutral", WAKES)
+        actuator.says("let go first")
         for _ in every(0.02, 50):
             assert rig.ticks == NEUTRAL
-    actuator.says("let go first")
     with operator(node):
         driven(rig)
 

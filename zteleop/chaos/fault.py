@@ -17,8 +17,11 @@ class Fault(NamedTuple):
     """Returns when it struck, by the monotonic clock, where it took its time; or in words what went wrong."""
     bound: float | None = 0.05
     """s until its wheels are at rest; None where it may drive on"""
-    then: Literal["rests", "drives"] = "rests"
-    """What follows while its operator goes on: `rests` for good, or `drives`, at the latest after a pause."""
+    then: Literal["rests", "drives", "either"] = "rests"
+    """What follows while its operator goes on: `rests` for good, or `drives`, at the latest after a pause.
+
+    `either` is an interruption: how long it takes on this machine decides.
+    """
     operator: Literal["here", "far", "program", "keyboard"] = "here"
     """Who drives: this process (far: behind a link), a program of its own, or keys in a terminal."""
     before: Act = lambda _: None

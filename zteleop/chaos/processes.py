@@ -85,7 +85,7 @@ def hang_up(bench: Bench) -> None:
 FAULTS = (
     Fault("actuator killed", actuator(signal.SIGKILL)),
     Fault("actuator crashes", actuator(signal.SIGSEGV)),
-    Fault("actuator frozen", actuator(signal.SIGSTOP), 0.4),
+    Fault("actuator frozen", actuator(signal.SIGSTOP), 0.4, then="either"),
     Fault("actuator told to end", actuator(signal.SIGTERM)),
     Fault("actuator hangs at its end", together(order("hang", actuator), actuator(signal.SIGTERM))),
     Fault("actuator: an error in its loop", order("raise MainThread", actuator)),

@@ -8,6 +8,7 @@ import msgspec
 from zteleop import config
 from zteleop.bus.node import Node
 from zteleop.config import Config
+from zteleop.control.standing import Standing
 from zteleop.drivers import open_driver
 from zteleop.errors import ConfigError, DeviceError
 from zteleop.nodes import link, realtime
@@ -21,8 +22,8 @@ PRIORITY, OOM_SCORE = 10, -800
 
 
 def run(number: int) -> int:
-    """Obey commands with the settings on stdin, under the watchdog at the other end of a socket."""
-    settings = orders(sys.stdin.buffer.read())
+    """Obey commands with the orders on stdin, under the watchdog at the other end of a socket."""
+    settings, standing = orders(sys.stdin.buffer.read())
     robot = settings.robot or ""
     end = _adopt(number)
     with realtime.lent(PRIORITY):
@@ -39,14 +40,19 @@ def run(number: int) -> int:
             StopFile(folder / "stop", node.log.error),
             Journal(folder, settings.journal, node.log.warn),
             Health(Path("/sys"), node.log),
+            standing,
         ).run()
     return 0
 
 
-def orders(text: bytes) -> Config:
-    """Return the settings that a watchdog gives its actuator; raises ConfigError."""
+def orders(text: bytes) -> tuple[Config, Standing | None]:
+    """Return the settings a watchdog gives its actuator, and whose place it takes; raises ConfigError."""
+    settings, _, standing = text.partition(b"\n")
     try:
-        return msgspec.json.decode(text, type=Config)
+        return (
+            msgspec.json.decode(settings, type=Config),
+            msgspec.json.decode(standing or b"null", type=Standing | None),
+        )
     except (msgspec.MsgspecError, ValueError, RecursionError) as error:
         raise ConfigError(
             f"expected a watchdog's settings on standard input: {error}; zteleop actuator starts both"

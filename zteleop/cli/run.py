@@ -27,15 +27,16 @@ def run_verb(verb: str, text: str, arguments: list[str]) -> int:
     except ZteleopError as error:
         if options.debug:
             raise
-        return _fail(verb, str(error))
+        _say(verb, str(error))
+        return error.exit_code
     except Exception as error:
         if options.debug:
             raise
-        return _fail(verb, f"{type(error).__name__}: {error} (a bug; --debug shows where)")
+        _say(verb, f"{type(error).__name__}: {error} (a bug; --debug shows where)")
+        return 1
     finally:
         undo_signals()
 
 
-def _fail(verb: str, words: str) -> int:
+def _say(verb: str, words: str) -> None:
     print(printable(f"zteleop {verb}: {words}", keep="\n"), file=sys.stderr)
-    return 1

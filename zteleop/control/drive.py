@@ -8,7 +8,7 @@ from msgspec import Struct, field
 from zteleop.control.calibration import Calibration
 from zteleop.control.cap import Bound, Cap, CapSettings
 from zteleop.control.gate import Deadlines, Gate, Refusal
-from zteleop.control.hold import HOLDS, Holds
+from zteleop.control.hold import PAUSE, Holds
 from zteleop.control.limiter import Limits, TwistLimiter, WheelLimiter
 from zteleop.control.mixer import Ackermann, Mixer, Wheels
 from zteleop.control.mux import HEARD_LATE, Claim, Mux, Source
@@ -108,6 +108,7 @@ class Drive:
         self.interruption = ""
         """What the last one was, in words."""
         self._gone: tuple[str, float] | None = None
+        self._drove: int | None = None
         self._limiter = TwistLimiter(settings.limits, settings.mixer)
         self._wheel_limiter = WheelLimiter(settings.limits, settings.mixer, settings.servos)
         self.calibration = Calibration(settings.servos, tick_us)
@@ -129,6 +130,22 @@ class Drive:
         self.mux.interrupt(now)
         self.interruption, self._stepped = why, now
 
+    @property
+    def driver(self) -> Claim | None:
+        """The claim that drove last, unless it was let go or has lost its place."""
+        return next((claim for claim in self.mux.claims if claim.sender == self._drove), None)
+
+    def recall(self, source: str, sender: int, began: float, counted: float, now: float) -> None:
+        """Keep the place of a claim that drove under another drive of this epoch; `interrupt` must follow."""
+        if sender < 0:
+            prover = self._foreign[source] = Prover(-1, self._foreign_silence)
+            prover.act(Beat(self.gate.epoch, began))
+            prover.prove(Beat(self.gate.epoch, began), True, now)
+            sender = prover.sender
+        self.gate.recall(sender, began, counted)
+        self.mux.offer(Claim(source, sender, Twist.zero(), counted, counted, 0, counted, began))
+        self._drove = sender
+
     def restart(self, epoch: int, now: float) -> None:
         """Forget every claim and begin a new epoch."""
         self.gate.restart(epoch, now)
@@ -142,12 +159,13 @@ class Drive:
         self.holds.add(reason, state, why, now)
         self.mux.clear()
 
-    def pause(self, reason: str, state: State, why: str, now: float) -> None:
+    def pause(self, reason: str, why: str, now: float) -> None:
         """Keep the robot at rest until `resume`, by an interruption that lets claims keep their place."""
-        self.holds.add(reason, state, why, now)
+        if reason not in self.holds:  # a stricter one stays what it is
+            self.holds.add(reason, PAUSE, why, now)
 
     def resume(self, reason: str, why: str, now: float) -> None:
-        """End an interruption that began with `pause`."""
+        """End an interruption that began with `pause`, or with `hold` where nobody can have a right yet."""
         if self.holds.drop(reason):
             self.interrupt(why, now, self.settings.deadlines.link_loss)
 
@@ -159,10 +177,12 @@ class Drive:
     def stop(self, said: Stop, now: float) -> bool:
         """Obey a stop or a release of one; True when that changed anything."""
         changed = self.latch.obey(said)
-        if self.latch.stop is None:
-            self.free("stop", now)
-        elif changed:
+        if changed and self.latch.stop:
             self.hold("stop", "stopped", describe(self.latch.stop), now)
+        elif changed:  # a release, perhaps of a stop that never arrived
+            self.holds.drop("stop")
+            self.mux.clear()
+            self.gate.begin_after(now)
         return changed
 
     def withdraw(self, sender: int, now: float) -> None:
@@ -180,6 +200,7 @@ class Drive:
         unproven = proof is None and self._sources[source].trust == "arrival"
         if unproven and moving and now - self.mux.interrupted <= self.settings.deadlines.max_age:
             # Nobody can prove that it was not said before the interruption ended, and queued meanwhile.
+            (self._foreign.get(source) or self._meet(source)).hold_on(now)
             return self._refuse(source, Refusal.INTERRUPTED, now)
         if unproven:
             proof = self._vouch(source, moving, now)
@@ -201,6 +222,7 @@ class Drive:
         """Decide the pulses of now."""
         self._stepped = now
         claim = self.mux.select(now) if not self.holds else None
+        self._drove = claim.sender if claim else self._drove
         bound = self.cap.find(claim.source, now) if claim else self.cap.rest()
         wheels = self._wheel_limiter.limit(self._obey(claim, bound.speed, now), now)
         if claim is None or wheels is None:
@@ -219,7 +241,7 @@ class Drive:
     def _explain_rest(self, now: float) -> tuple[State, str]:
         state, why = self._find_rest(now)
         recent = {source: refused for source, refused in self.refusals.items() if now - refused.at < 1.0}
-        if recent and state not in HOLDS:
+        if recent and not self.holds:
             source = max(recent, key=lambda name: recent[name].at)
             why += f"; {source} is refused: {recent[source].why}"
         return state, why
@@ -253,7 +275,7 @@ class Drive:
             self.mux.release(proof.sender)
             return None
         if self.holds:
-            return Refusal.AT_REST
+            return Refusal.INTERRUPTED if self.holds.pass_by_themselves else Refusal.AT_REST
         self._gone = None
         claim = Claim(source, proof.sender, command, proof.acted, now, proof.seq, proof.beat, proof.began)
         if not self.mux.offer(claim):

@@ -83,6 +83,24 @@ class Gate:
         self._resumed = NEVER
         self._senders.clear()
 
+    @property
+    def floor(self) -> float:
+        """Claims that began up to then are over, whoever has a right."""
+        return self._floor
+
+    def take_over(self, floor: float) -> None:
+        """Count from where another gate of this epoch did; `recall`, and then `interrupt`, must follow."""
+        self._floor = floor
+
+    def recall(self, sender: int, began: float, at: float) -> None:
+        """Know a claim again that another gate of this epoch last counted at that time."""
+        self._senders[sender] = Seen(0, NEVER, at, True, NEVER, began, at)
+
+    def last_counted(self, sender: int) -> float:
+        """Return when a command of a sender last counted."""
+        seen = self._senders.get(sender)
+        return seen.counted if seen else NEVER
+
     def begin_after(self, now: float) -> None:
         """Count only claims that leave neutral later than now."""
         self._floor = max(self._floor, now - self._grace)
@@ -90,9 +108,11 @@ class Gate:
     def interrupt(self, now: float, limit: float) -> None:
         """End an interruption; claims that counted within `limit` seconds may go on, others begin anew."""
         self._resumed = now - self._grace
+        if self._grace:
+            return  # who goes on is the first opinion's affair; that nothing old moves it, is both's
         self._forgotten = max(self._forgotten, self._resumed)
         for seen in self._senders.values():
-            goes_on = seen.moving and now - seen.counted <= limit + self._grace
+            goes_on = seen.moving and now - seen.counted <= limit
             seen.right = seen.claim if goes_on else NEVER
             seen.floor = max(seen.floor, self._resumed)
 
@@ -122,10 +142,10 @@ class Gate:
         seen = self._remember(proof, seen, moving, now, silence)
         if not moving:
             return None
+        if not self._may_begin(proof, seen):  # first: a claim that is over lacks more than an act
+            return Refusal.NOT_FROM_NEUTRAL
         if not 0 <= now - proof.acted <= self._deadlines.operator:
             return Refusal.OPERATOR_IDLE
-        if not self._may_begin(proof, seen):
-            return Refusal.NOT_FROM_NEUTRAL
         resumed = max(self._resumed, seen.resumed)
         return None if proof.beat > resumed and proof.acted > resumed else Refusal.INTERRUPTED
 

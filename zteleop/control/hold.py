@@ -5,7 +5,9 @@ from typing import NamedTuple
 from zteleop.messages import State
 
 HOLDS: tuple[State, ...] = ("stopped", "fault", "starting")
-"""States of a hold; of several reasons the first of these is shown."""
+"""States of a hold after which everybody begins anew; of several reasons the first of these is shown."""
+PAUSE: State = "link lost"
+"""The state of a hold that ends as an interruption does, and is shown after all others."""
 
 
 class Hold(NamedTuple):
@@ -25,10 +27,18 @@ class Holds:
     def __bool__(self) -> bool:
         return bool(self._holds)
 
+    def __contains__(self, reason: str) -> bool:
+        return reason in self._holds
+
     @property
     def strongest(self) -> Hold | None:
         """The reason to tell people."""
-        return min(self._holds.values(), key=lambda hold: HOLDS.index(hold.state), default=None)
+        return min(self._holds.values(), key=lambda hold: (*HOLDS, PAUSE).index(hold.state), default=None)
+
+    @property
+    def pass_by_themselves(self) -> bool:
+        """None of the reasons takes a claim's right to go on."""
+        return all(hold.state == PAUSE for hold in self._holds.values())
 
     def add(self, reason: str, state: State, why: str, now: float) -> None:
         """Add a reason, or say an old one in new words."""

@@ -7,7 +7,8 @@ from msgspec.structs import replace
 from zteleop.control.drive import Drive, DriveSettings
 from zteleop.control.gate import SENDERS, Refusal
 from zteleop.control.mux import Claim, Mux
-from zteleop.control.proof import Proof
+from zteleop.control.proof import NEVER, Proof
+from zteleop.control.standing import Standing
 from zteleop.messages import Pwm, Twist
 
 GRACE = 0.25
@@ -53,13 +54,21 @@ class Judge:
         self._stopped: float | None = None
         self._last_stopped = now
         self._bad_looks = 0
+        self._interrupted = self.released = NEVER
         self.moving = False
 
-    def hear_report(self, epoch: int, since: float) -> None:
-        """Learn of the actuator's epoch and when it began; what began before counts for nothing."""
-        if epoch != self._epoch:
-            self._epoch = epoch
-            self._drive.restart(epoch, since)
+    def hear_report(self, standing: Standing) -> None:
+        """Learn of the actuator's epoch, and of the last interruption; what was said before is too old."""
+        if standing.epoch != self._epoch:
+            self._epoch, self._interrupted = standing.epoch, standing.since
+            self._drive.restart(standing.epoch, standing.since)
+        if standing.interrupted > self._interrupted:
+            self._interrupted = standing.interrupted
+            self._drive.gate.interrupt(standing.interrupted, NEVER)
+
+    def hear_release(self, now: float) -> None:
+        """Learn that somebody released a stop: no claim from before may go on."""
+        self.released = now
 
     def receive(self, source: str, command: Twist | Pwm, proof: Proof | None, now: float) -> Refusal | None:
         """Judge a command that the watchdog heard itself."""
@@ -77,6 +86,7 @@ class Judge:
             self._stopped, self._last_stopped = self._stopped or now, now
         elif self._stopped is not None:
             self._stopped = None
+            self.hear_release(now)
             self._drive.gate.begin_after(self._last_stopped)  # it may have been released since
         if self._must_rest(now):
             self._drive.mux.clear()

@@ -65,6 +65,11 @@ class Prover:
         self._seq += 1
         return Proof(self._sender, self._seq, beat.epoch, beat.time, self._acted, self._began)
 
+    def hold_on(self, now: float) -> None:
+        """Note that what moves goes on moving, although nothing is proved: it has not paused."""
+        if now - self._then <= self._silence:
+            self._then = now
+
     def let_go(self) -> None:
         """End the claim: what moves next begins anew."""
         self._moving = False

@@ -5,7 +5,7 @@ from collections import OrderedDict
 from zteleop.messages import Stop
 
 REMEMBERED = 64
-"""How many past stops are known by id; what a network delivers late of them changes nothing."""
+"""How many past stops and releases are known by id; what a network delivers late of them changes nothing."""
 
 
 class Latch:
@@ -21,13 +21,7 @@ class Latch:
 
     def obey(self, said: Stop) -> bool:
         """Engage or release; True when that changed anything."""
-        if said.engaged:
-            return self._engage(said)
-        if self.stop is None or said.id != self.stop.id:
-            return False
-        self.released = self.stop.id or (self.released + 1) % 2**53
-        self.stop = None
-        return True
+        return self._engage(said) if said.engaged else self._release(said)
 
     def forget(self) -> None:
         """End the stop by other means than its release."""
@@ -36,12 +30,26 @@ class Latch:
     def _engage(self, said: Stop) -> bool:
         if said.id in self._known or (self.stop and self.stop.id == said.id):
             return False
-        if said.id:  # 0 is nobody's: a person who says it by hand means it each time
-            self._known[said.id] = None
-        if len(self._known) > REMEMBERED:
-            self._known.popitem(last=False)
+        self._know(said.id)
         self.stop = said
         return True
+
+    def _release(self, said: Stop) -> bool:
+        """End the stop in force; the end of one that was never heard is news as well."""
+        if self.stop and said.id != self.stop.id:
+            return False
+        if self.stop is None and said.id in self._known:
+            return False
+        self._know(said.id)
+        self.released = said.id or (self.released + 1) % 2**53
+        self.stop = None
+        return True
+
+    def _know(self, identity: int) -> None:
+        if identity:  # 0 is nobody's: a person who says it by hand means it each time
+            self._known[identity] = None
+        if len(self._known) > REMEMBERED:
+            self._known.popitem(last=False)
 
 
 def describe(stop: Stop) -> str:

@@ -11,6 +11,7 @@ from zteleop.control.drive import Drive, DriveSettings
 from zteleop.control.explain import layers
 from zteleop.control.refusals import RefusedSenders
 from zteleop.control.report import describe, refusals, status
+from zteleop.control.standing import Standing, go_on, stand
 from zteleop.control.stop import describe as describe_stop
 from zteleop.drivers import PulseDriver
 from zteleop.errors import DeviceError, MessageError
@@ -25,7 +26,7 @@ from zteleop.messages import (
 )
 from zteleop.nodes.health import LOOK_EVERY, Health
 from zteleop.nodes.journal import Journal
-from zteleop.nodes.link import ActuatorEnd, Report
+from zteleop.nodes.link import UNWATCHED, ActuatorEnd, Report
 from zteleop.nodes.output import Output
 from zteleop.nodes.stop_file import StopFile
 
@@ -38,6 +39,13 @@ WATCHDOG_SILENCE = 0.45
 """s without a word of the watchdog until neutral and exit: 0.5 s since it froze at the latest."""
 DEAF = "deaf"
 UNHEARD = "the watchdog does not hear this robot on the bus"
+TAKEN_OVER = "its actuator came late, and was started again"
+
+
+class UnwatchedError(DeviceError):
+    """Nobody watches, so the actuator ends, at rest; a watchdog that was only late starts another."""
+
+    exit_code = UNWATCHED
 
 
 class Actuator:
@@ -52,17 +60,22 @@ class Actuator:
         stop_file: StopFile,
         journal: Journal,
         health: Health | None = None,
+        standing: Standing | None = None,
     ) -> None:
         self._node, self._settings, self._driver = node, settings, driver
         self._link, self._stop_file, self._journal = link, stop_file, journal
         self._health = health
-        self._since = clock.now()
-        self._drive = Drive(settings, driver.tick_us, _epoch(), self._since)
+        now = self._since = clock.now()
+        self._drive = Drive(settings, driver.tick_us, standing.epoch if standing else _epoch(), now)
         self._output = Output(driver, self._drive, self._tell_chip)
-        self._output.start(self._since)
+        # In another's place there is no pause to arm: the watchdog has kept the chip at neutral.
+        self._output.start(now, arm=standing is None)
         self._refused = RefusedSenders()
         self._drive.latch.released = stop_file.released()
-        self._drive.pause(DEAF, "starting", UNHEARD, self._since)
+        if standing:
+            self._take_over(standing, now)
+        else:
+            self._drive.hold(DEAF, "starting", UNHEARD, now)
         if stop := stop_file.load():
             self._drive.stop(stop, self._since)
         self._watched = clock.now()
@@ -95,9 +108,18 @@ class Actuator:
             if held := self._drive.latch.stop:
                 self._node.log.warn(describe_stop(held))
             self._journal.event("start", robot=self._node.robot, epoch=self._drive.gate.epoch)
+            if why := self._drive.interruption:
+                self._node.log.warn(f"{why}; whoever drove goes on with the next act")
+                self._journal.event("interruption", why=why)
             self._node.spin()
         finally:
             self._finish()
+
+    def _take_over(self, standing: Standing, now: float) -> None:
+        """Go on in the place of an actuator that was ended for being late."""
+        self._since = standing.since
+        go_on(self._drive, standing, TAKEN_OVER, now)
+        self._drive.pause(DEAF, UNHEARD, now)
 
     def _finish(self) -> None:
         """Leave neutral behind, as far as the chip takes it."""
@@ -140,7 +162,7 @@ class Actuator:
         now = clock.now()
         self._notice_pause(now)
         if now - self._watched > WATCHDOG_SILENCE:
-            raise DeviceError(
+            raise UnwatchedError(
                 f"the watchdog has been silent for {now - self._watched:.1f} s; the robot is at rest"
             )
         self._output.tend(now)
@@ -153,7 +175,7 @@ class Actuator:
         before, self._step = self._step, self._drive.step(now)
         self._output.write(self._step.pulse_us, now)
         self._written = clock.now()
-        self._link.report(Report(now, self._drive.gate.epoch, self._since))
+        self._link.report(Report(now, stand(self._drive, self._since)))
         if self._step.state != before.state:
             self._node.log.info(f"{self._step.state}: {self._step.why}")
             self._journal.event("state", state=self._step.state, why=self._step.why)
@@ -188,7 +210,7 @@ class Actuator:
         if words.hears:
             self._drive.resume(DEAF, "the watchdog did not hear this robot on the bus", now)
         elif words.hears is False:
-            self._drive.pause(DEAF, "starting", UNHEARD, now)
+            self._drive.pause(DEAF, UNHEARD, now)
 
     def _obey(self, said: Stop) -> None:
         """Obey a stop or a release; the pulses first, the file and the words afterwards."""

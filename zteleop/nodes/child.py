@@ -4,6 +4,9 @@ import subprocess
 from collections.abc import Sequence
 from contextlib import suppress
 
+import msgspec
+
+from zteleop.control.standing import Standing
 from zteleop.nodes import link
 from zteleop.nodes.link import Report, WatchdogEnd
 
@@ -15,7 +18,10 @@ PATIENCE = 0.1
 
 
 class Child:
-    """One process at a time, run by `command`: settings on stdin, the files in `shared` inherited."""
+    """One process at a time, run by `command`: two lines on stdin, the files in `shared` inherited.
+
+    The first line is the settings; the second says where the actuator stood whose place it takes, or null.
+    """
 
     def __init__(self, command: Sequence[str], settings: bytes, shared: Sequence[int] = ()) -> None:
         self._command, self._settings, self._shared = command, settings, shared
@@ -31,7 +37,7 @@ class Child:
         """It has reported a step."""
         return self.newest is not None
 
-    def start(self, now: float) -> None:
+    def start(self, now: float, standing: Standing | None = None) -> None:
         """Start the process; nobody else holds an end of its link."""
         self.link, theirs = link.pair()
         with theirs:
@@ -45,7 +51,7 @@ class Child:
             )
         assert self._process.stdin
         with suppress(BrokenPipeError), self._process.stdin as settings:
-            settings.write(self._settings)
+            settings.write(self._settings + b"\n" + msgspec.json.encode(standing))
         self.newest, self.started = None, now
         self.starts += 1
 

@@ -7,10 +7,11 @@ from typing import NamedTuple
 
 import msgspec
 
+from zteleop.control.standing import Standing
 from zteleop.errors import DeviceError
 from zteleop.messages import Stop
 
-_REPORT = Struct("<dQd")
+_REPORT = Struct("<dQdddhqdd")
 _STOP_HEAD = Struct("<cH")
 _BYTES = 4096
 
@@ -20,15 +21,15 @@ DEAF = b"d"
 """The watchdog lives, and does not hear the actuator's beats on the bus."""
 STOP = b"s"
 """A stop follows, two bytes of its length before it: obey it now."""
+UNWATCHED = 75
+"""The exit code of an actuator that ended at rest because nobody watched it: EX_TEMPFAIL of sysexits.h."""
 
 
 class Report(NamedTuple):
     """One step of the actuator."""
 
     stepped: float
-    epoch: int
-    since: float
-    """when the epoch began"""
+    standing: Standing
 
 
 class End:
@@ -74,7 +75,7 @@ class ActuatorEnd(End):
         self._rest = b""
 
     def report(self, report: Report) -> None:
-        self._send(_REPORT.pack(*report))
+        self._send(_REPORT.pack(report.stepped, *report.standing))
 
     def read(self) -> Words:
         """Return what arrived; raises DeviceError when the watchdog is gone, or cannot be understood."""
@@ -118,7 +119,12 @@ class WatchdogEnd(End):
         data = self._rest + data
         whole = len(data) // _REPORT.size * _REPORT.size
         self._rest = data[whole:]
-        return Report(*_REPORT.unpack_from(data, whole - _REPORT.size)) if whole else None
+        return _report(data, whole - _REPORT.size) if whole else None
+
+
+def _report(data: bytes, start: int) -> Report:
+    stepped, *standing = _REPORT.unpack_from(data, start)
+    return Report(stepped, Standing(*standing))
 
 
 def _stop(text: bytes) -> Stop:

@@ -22,10 +22,11 @@ class Output:
         self._broken = False
         self._repair_at = self._armed_at = 0.0
 
-    def start(self, now: float) -> None:
+    def start(self, now: float, arm: bool = True) -> None:
         """Bring the chip up at neutral; raises DeviceError when it does not come."""
         self._driver.start(self._neutral_us)
-        self._arm(now)
+        if arm:
+            self._arm(now)
 
     def write(self, pulse_us: Mapping[int, float], now: float) -> None:
         """Write the pulses of a step, unless the chip is being repaired."""

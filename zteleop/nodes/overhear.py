@@ -53,6 +53,12 @@ class Overhearing:
             self._beat_at = now
         return now - self._beat_at < DEAF_AFTER
 
+    def forget_beats(self) -> None:
+        """Hear another actuator only by beats of its own."""
+        self._beat_at = float("-inf")
+        for _ in self._beats.take():
+            pass
+
     @property
     def stop(self) -> Stop | None:
         """The stop in force, as far as it was heard."""
@@ -67,6 +73,8 @@ class Overhearing:
         for received in self._stops.take():
             if self._latch.obey(received.message):
                 self._asked_at, self._told = now, False
+                if not received.message.engaged:
+                    self._judge.hear_release(now)
         kept = self._stop_file.exists()
         if self._was_kept and not kept and self._asked_at != now:
             self._latch.forget()  # whoever removed the file has released it

@@ -10,12 +10,13 @@ from zteleop.bus import clock, signals
 from zteleop.bus.node import Node
 from zteleop.control.drive import DriveSettings
 from zteleop.control.judge import GRACE, Judge
+from zteleop.control.standing import Standing
 from zteleop.drivers import PulseDriver
 from zteleop.errors import DeviceError
 from zteleop.messages import Stop, WatchdogStatus
 from zteleop.nodes import service
 from zteleop.nodes.child import Child
-from zteleop.nodes.link import DEAF, HEARS
+from zteleop.nodes.link import DEAF, HEARS, UNWATCHED
 from zteleop.nodes.overhear import Overhearing
 from zteleop.nodes.recorder import Recorder
 from zteleop.nodes.stop_file import StopFile
@@ -54,6 +55,8 @@ class Watchdog:
         self._statuses = node.publisher("watchdog", WatchdogStatus)
         self._ticked = self._woke = clock.now()
         self._restart_at: float | None = None
+        self._standing: Standing | None = None
+        """Of the actuator that is gone, where it was only late."""
         self._at_rest = False
         self._why = "the actuator starts"
         self._exit_code: int | None = None
@@ -81,7 +84,8 @@ class Watchdog:
 
     def _start(self) -> None:
         self._restart_at = None
-        self._child.start(clock.now())
+        self._ears.forget_beats()
+        self._child.start(clock.now(), self._standing)
         assert self._child.link
         self._node.watch(self._child.link.fileno(), self._hear_actuator)
 
@@ -94,7 +98,7 @@ class Watchdog:
             self._fell("it ended", GRACE)
             return
         if report := self._child.newest:
-            self._judge.hear_report(report.epoch, report.since)
+            self._judge.hear_report(report.standing)
             if not was_ready:
                 self._greet()
 
@@ -117,7 +121,7 @@ class Watchdog:
         if self._restart_at is not None:
             self._keep_at_rest(now)
         elif self._silent(now):
-            self._fell(f"it was silent for {self._child.silence(now):.2f} s", 0.0)
+            self._fell(f"it was silent for {self._child.silence(now):.2f} s", 0.0, late=True)
 
     def _silent(self, now: float) -> bool:
         """Say whether the actuator has been silent for too long while the watchdog was there to hear it."""
@@ -126,7 +130,7 @@ class Watchdog:
 
     def _beat(self) -> None:
         report = self._child.newest
-        hears = self._ears.hears(report.epoch if report else None, clock.now())
+        hears = self._ears.hears(report.standing.epoch if report else None, clock.now())
         if self._child.link:
             self._child.link.say(HEARS if hears else DEAF)
         service.notify("WATCHDOG=1")
@@ -155,8 +159,11 @@ class Watchdog:
             self._child.link.stop(stop)
         self._rest()
 
-    def _fell(self, why: str, patience: float) -> None:
-        """Make sure that the actuator is gone, bring the chip to rest, and start another."""
+    def _fell(self, why: str, patience: float, late: bool = False) -> None:
+        """Make sure that the actuator is gone, bring the chip to rest, and start another.
+
+        One that was only late, or that this process was late for, is followed by one in its place.
+        """
         now = clock.now()
         if self._child.link:
             self._node.unwatch(self._child.link.fileno())
@@ -166,10 +173,17 @@ class Watchdog:
             self._exit_code = code
             self._node.stop()
             return
+        self._standing = self._remember() if late or code == UNWATCHED else None
         self._restart_at = now + self._child.pause(now)
         self._why = f"the actuator is gone: {why}"
         self._node.log.error(f"{self._why}; the chip is kept at rest and another starts")
         self._tell_status()
+
+    def _remember(self) -> Standing | None:
+        """Return where the actuator stood, and what it may not have heard: the release of a stop."""
+        last = self._child.newest
+        standing = last.standing if last else self._standing
+        return standing and standing._replace(floor=max(standing.floor, self._judge.released))
 
     @property
     def _never_stepped(self) -> bool:

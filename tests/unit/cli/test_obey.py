@@ -12,6 +12,7 @@ from unit.nodes.fakes import Node
 from zteleop.bus.session import BusSettings
 from zteleop.cli import obey
 from zteleop.config import Config
+from zteleop.control.standing import Standing
 from zteleop.errors import ConfigError, DeviceError
 from zteleop.nodes import link
 
@@ -28,9 +29,10 @@ def made(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> dict[str, Any]:
         made["left"] = True
 
     def actuator(
-        node: Any, drive: Any, driver: Any, end: Any, stop_file: Any, journal: Any, health: Any
+        node: Any, drive: Any, driver: Any, end: Any, stop_file: Any, journal: Any, health: Any, standing: Any
     ) -> Any:
         made.update(drive=drive, end=end, stop=stop_file.path, journal=journal, health=health)
+        made.update(standing=standing)
         return SimpleNamespace(run=lambda: made.update(ran=True))
 
     def open_driver(name: str, settings: Any, *, exclusive: bool) -> str:
@@ -60,11 +62,19 @@ SETTINGS = Config(
 )
 
 
+def test_it_begins_in_the_place_it_is_given(made: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
+    standing = Standing(5, 1.0, 2.0, 3.0, 2, 7, 4.0, 5.0)
+    give(monkeypatch, msgspec.json.encode(SETTINGS) + b"\n" + msgspec.json.encode(standing))
+    assert obey.run(7) == 0
+    assert made["standing"] == standing
+
+
 def test_it_obeys_with_the_settings_it_is_given_and_its_parents_lock(
     made: dict[str, Any], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    give(monkeypatch, msgspec.json.encode(SETTINGS))
+    give(monkeypatch, msgspec.json.encode(SETTINGS) + b"\nnull")
     assert obey.run(7) == 0
+    assert made["standing"] is None
     assert (made["name"], made["node"].robot, made["bus"]) == ("actuator", "archangel", SETTINGS.bus)
     assert (made["drive"], made["end"]) == (SETTINGS.drive, "end 7")
     assert (made["driver"], made["settings"], made["exclusive"]) == (

@@ -218,7 +218,6 @@ def test_freeing_what_was_not_held_disturbs_nobody() -> None:
     robot = Robot()
     robot.hold(FORWARD, 0.2)
     robot.drive.free("chip", robot.now)
-    assert not robot.release(7)
     assert moves(robot.hold(FORWARD, 0.2))
 
 

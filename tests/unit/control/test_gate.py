@@ -110,7 +110,7 @@ def test_a_restart_refuses_all_that_was_before(gate: Gate) -> None:
 def test_nonsense_times_are_refused(gate: Gate) -> None:
     nan = float("nan")
     assert gate.judge(proof(101.0, beat=nan), True, 101.0) is Refusal.STALE
-    assert gate.judge(proof(101.0, acted=nan), True, 101.0) is Refusal.OPERATOR_IDLE
+    assert gate.judge(proof(101.0, acted=nan), True, 101.0) is Refusal.NOT_FROM_NEUTRAL
     assert gate.judge(proof(101.0, seq=2, began=nan), True, 101.0) is Refusal.NOT_FROM_NEUTRAL
     assert gate.judge(proof(101.0, seq=3, began=200.0), True, 101.0) is Refusal.NOT_FROM_NEUTRAL
 

@@ -5,12 +5,14 @@ with the first command whose beat and act are later than the end. Longer, and it
 """
 
 import pytest
-from unit.control.robot import FORWARD, REST, Robot, moves
+from unit.control.robot import FORWARD, REST, TICK_US, Robot, moves
 
-from zteleop.control.drive import DriveSettings
+from zteleop.control.drive import Drive, DriveSettings
 from zteleop.control.gate import Refusal
 from zteleop.control.mux import Source
-from zteleop.control.proof import Prover
+from zteleop.control.proof import NEVER, Prover
+from zteleop.control.standing import NOBODY, go_on, stand
+from zteleop.messages import Beat
 
 STEP = 0.02
 
@@ -35,7 +37,7 @@ def begins_anew(robot: Robot, sender: str = "a") -> bool:
 
 def deaf_for(robot: Robot, seconds: float, **how: object) -> None:
     """Let the watchdog not hear the robot, while somebody goes on."""
-    robot.drive.pause("deaf", "starting", "", robot.now)
+    robot.drive.pause("deaf", "", robot.now)
     assert not moves(robot.hold(FORWARD, seconds, **how))
     robot.drive.resume("deaf", "it was deaf", robot.now)
     robot.wait(STEP)
@@ -114,7 +116,7 @@ def test_almost_two_seconds_and_then_a_beat_and_a_round_trip(robot: Robot) -> No
 def test_two_losses_that_touch_are_one(robot: Robot) -> None:
     robot.hold(FORWARD, 0.5)
     robot.wait(1.5)
-    robot.drive.pause("deaf", "starting", "", robot.now)
+    robot.drive.pause("deaf", "", robot.now)
     robot.hold(FORWARD, 0.6)
     robot.drive.resume("deaf", "it was deaf", robot.now)
     assert not drives_on(robot)
@@ -138,7 +140,7 @@ def test_two_losses_with_driving_between_are_two(robot: Robot) -> None:
 
 def test_a_stop_pressed_while_the_robot_was_cut_off_with_another_holding_a_key(robot: Robot) -> None:
     robot.hold(FORWARD, 0.5)
-    robot.drive.pause("deaf", "starting", "", robot.now)
+    robot.drive.pause("deaf", "", robot.now)
     robot.hold(FORWARD, 0.7)
     robot.stop(7)
     robot.hold(FORWARD, 0.5)
@@ -170,7 +172,7 @@ def test_of_two_operators_the_one_who_waits_has_it_when_the_other_is_gone(robot:
 
 
 def test_whoever_begins_during_an_interruption_begins_too_early(robot: Robot) -> None:
-    robot.drive.pause("deaf", "starting", "", robot.now)
+    robot.drive.pause("deaf", "", robot.now)
     robot.hold(FORWARD, 1.0)
     robot.drive.resume("deaf", "it was deaf", robot.now)
     assert not drives_on(robot)
@@ -179,7 +181,7 @@ def test_whoever_begins_during_an_interruption_begins_too_early(robot: Robot) ->
 
 def test_letting_go_during_an_interruption_gives_the_right_away(robot: Robot) -> None:
     robot.hold(FORWARD, 0.5)
-    robot.drive.pause("deaf", "starting", "", robot.now)
+    robot.drive.pause("deaf", "", robot.now)
     robot.say(REST)
     robot.hold(FORWARD, 0.5)
     robot.drive.resume("deaf", "it was deaf", robot.now)
@@ -191,6 +193,129 @@ def test_an_idle_operator_still_drives_with_the_next_act_however_late(robot: Rob
     robot.say(FORWARD)
     robot.hold(FORWARD, 8.0, act=False)
     assert drives_on(robot)
+
+
+def take_over(robot: Robot, seconds: float, released: float = NEVER) -> None:
+    """End the drive for being late, and let another take its place some time later."""
+    standing = stand(robot.drive, 100.0)
+    robot.now += seconds
+    robot.drive = Drive(robot.drive.settings, TICK_US, robot.epoch, robot.now)
+    go_on(robot.drive, standing._replace(floor=max(standing.floor, released)), "it came late", robot.now)
+    robot.wait(STEP)
+
+
+def test_an_actuator_that_was_ended_for_being_late_is_an_interruption(robot: Robot) -> None:
+    robot.hold(FORWARD, 0.5)
+    take_over(robot, 1.0)
+    assert not moves(robot.step()), "the next act, and not the last"
+    assert robot.step().why == "it came late; keyboard goes on with its next act"
+    assert drives_on(robot)
+
+
+def test_another_actuator_asks_a_lever_for_one_more_press(robot: Robot) -> None:
+    robot.hold(FORWARD, 0.5)
+    take_over(robot, 1.0)
+    assert not drives_on(robot, act=False)
+    assert drives_on(robot)
+
+
+def test_another_actuator_that_comes_too_late_is_a_start(robot: Robot) -> None:
+    robot.hold(FORWARD, 0.5)
+    take_over(robot, 2.0)
+    assert not drives_on(robot)
+    assert begins_anew(robot)
+
+
+def test_an_actuator_that_was_late_twice_is_measured_from_the_last_command_obeyed(robot: Robot) -> None:
+    robot.hold(FORWARD, 0.5)
+    take_over(robot, 1.2)
+    take_over(robot, 0.9)
+    assert not drives_on(robot)
+    assert begins_anew(robot)
+
+
+def test_another_actuator_keeps_the_place_of_whoever_drove(robot: Robot) -> None:
+    robot.hold(FORWARD, 0.5, sender="a")
+    assert robot.say(FORWARD, "b") is Refusal.HELD
+    take_over(robot, 0.8)
+    robot.say(REST, "b")
+    robot.wait(STEP)
+    assert robot.say(FORWARD, "b") is Refusal.HELD
+    assert drives_on(robot, sender="a")
+    robot.say(REST, "a")
+    assert not drives_on(robot, sender="b"), "whoever waited begins anew"
+
+
+def test_another_actuator_knows_nobody_but_whoever_drove(robot: Robot) -> None:
+    robot.hold(FORWARD, 0.5, sender="b", source="program")
+    robot.hold(FORWARD, 0.5, sender="a")
+    robot.say(FORWARD, "b", "program")
+    take_over(robot, 0.8)
+    robot.say(REST, "a")
+    assert not drives_on(robot, sender="b", source="program")
+    assert begins_anew(robot, "a")
+
+
+def test_whoever_had_let_go_does_not_drive_on_under_another_actuator(robot: Robot) -> None:
+    robot.hold(FORWARD, 0.5)
+    robot.say(REST)
+    robot.wait(STEP)
+    take_over(robot, 0.5)
+    robot.provers["a"].prove(Beat(robot.epoch, robot.now), True, robot.now)  # its last claim, once more
+    assert stand(robot.drive, 100.0).source == NOBODY
+
+
+def test_a_stop_that_came_and_went_while_no_actuator_stepped_ends_every_right(robot: Robot) -> None:
+    robot.hold(FORWARD, 0.5)
+    take_over(robot, 1.0, released=robot.now + 0.5)
+    assert not drives_on(robot)
+    assert begins_anew(robot)
+
+
+def test_the_release_of_a_stop_that_never_arrived_ends_every_claim(robot: Robot) -> None:
+    robot.hold(FORWARD, 0.5)
+    assert robot.release(7)
+    assert not drives_on(robot)
+    assert begins_anew(robot)
+    assert not robot.release(7), "said again, it is no news"
+    assert drives_on(robot)
+
+
+def test_a_claim_that_is_over_is_not_kept_by_an_idle_operator(robot: Robot) -> None:
+    """Idle, and lost for long: its next word lacks an act, but not only that."""
+    robot.say(FORWARD)
+    robot.hold(FORWARD, 0.5, act=False)
+    robot.wait(5.0)
+    robot.hold(FORWARD, 0.3, act=False)
+    robot.drive.pause("deaf", "", robot.now)
+    robot.drive.resume("deaf", "it was deaf", robot.now)
+    robot.wait(STEP)
+    assert not drives_on(robot)
+    assert begins_anew(robot)
+
+
+def test_a_planner_drives_on_under_another_actuator_and_one_that_was_too_late_pauses() -> None:
+    for seconds, goes_on in ((1.0, True), (2.5, False)):
+        robot = planned(PLANNER)
+        take_over(robot, seconds)
+        moved = []
+        for _ in range(20):
+            plan(robot)
+            moved.append(moves(robot.wait(0.06)))
+        assert moved[:4] == [False] * 4
+        assert moved[-1] is goes_on
+
+
+def test_a_slow_planner_that_never_paused_does_not_begin_by_being_refused() -> None:
+    """What arrives too early after the end is refused, and still no pause."""
+    robot = planned(PLANNER)
+    robot.drive.pause("deaf", "", robot.now)
+    robot.drive.resume("deaf", "it was deaf", robot.now)
+    robot.wait(0.26)
+    assert plan(robot) is Refusal.INTERRUPTED
+    robot.release(7)
+    robot.wait(0.3)
+    assert plan(robot) is Refusal.NOT_FROM_NEUTRAL
 
 
 PLANNER = Source(10, silence=0.5, trust="arrival")
@@ -212,7 +337,7 @@ def planned(source: Source) -> Robot:
 
 def test_a_dead_planners_queued_command_after_an_interruption_moves_nothing() -> None:
     robot = planned(PLANNER)
-    robot.drive.pause("deaf", "starting", "", robot.now)
+    robot.drive.pause("deaf", "", robot.now)
     robot.wait(1.5)
     robot.drive.resume("deaf", "it was deaf", robot.now)
     robot.wait(0.1)
@@ -222,7 +347,7 @@ def test_a_dead_planners_queued_command_after_an_interruption_moves_nothing() ->
 
 def test_a_planner_that_lives_drives_on_once_nothing_old_can_arrive() -> None:
     robot = planned(PLANNER)
-    robot.drive.pause("deaf", "starting", "", robot.now)
+    robot.drive.pause("deaf", "", robot.now)
     robot.wait(1.0)
     robot.drive.resume("deaf", "it was deaf", robot.now)
     moved = []

@@ -9,11 +9,16 @@ from zteleop.control.gate import SENDERS, Refusal
 from zteleop.control.judge import GRACE, LOOKS, Judge
 from zteleop.control.mux import Source
 from zteleop.control.proof import Proof, Prover
+from zteleop.control.standing import Standing
 from zteleop.messages import Beat, Pwm, Stop, Twist
 
 MOVING = {0: 1600.0, 1: 1530.0}
 LOOK = 0.05
 SETTINGS = DriveSettings(sources={"nav": Source(10, silence=0.5, trust="arrival")})
+
+
+def begun(epoch: int, since: float) -> Standing:
+    return Standing(epoch, since, since, since)
 
 
 class Watched(Robot):
@@ -22,7 +27,7 @@ class Watched(Robot):
     def __init__(self) -> None:
         super().__init__(SETTINGS)
         self.judge = Judge(SETTINGS, TICK_US, self.now)
-        self.judge.hear_report(self.epoch, 100.0)
+        self.judge.hear_report(begun(self.epoch, 100.0))
         self.pulses: dict[int, float] | None = None
         """What the chip does instead of what the drive says."""
         self.looked = self.now
@@ -165,15 +170,15 @@ def test_a_stop_does_not_excuse_what_had_no_claim_before(robot: Watched) -> None
 def test_a_chip_that_moves_on_into_a_new_epoch_is_stopped(robot: Watched) -> None:
     robot.hold(FORWARD, 0.5)
     robot.pulses = MOVING
-    robot.judge.hear_report(2, robot.now)
+    robot.judge.hear_report(begun(2, robot.now))
     assert robot.until_engaged() <= SOON
 
 
 def test_the_report_of_a_new_epoch_ends_all_claims_and_the_same_report_none(robot: Watched) -> None:
     robot.hold(FORWARD, 0.5)
-    robot.judge.hear_report(1, 100.0)
+    robot.judge.hear_report(begun(1, 100.0))
     assert robot.judge.allowed(robot.now)
-    robot.judge.hear_report(2, robot.now)
+    robot.judge.hear_report(begun(2, robot.now))
     assert not robot.judge.allowed(robot.now)
     robot.hold(FORWARD, 0.2)  # still of the old epoch
     assert not robot.judge.allowed(robot.now)
@@ -365,7 +370,7 @@ def test_a_speed_cap_gives_the_judge_nothing_to_blame(robot: Watched) -> None:
 def test_a_judge_that_looks_late_does_not_blame_who_began_after_the_release() -> None:
     settings = DriveSettings()
     drive, judge = Drive(settings, TICK_US, 1, 0.0), Judge(settings, TICK_US, 0.0)
-    judge.hear_report(1, 0.0)
+    judge.hear_report(begun(1, 0.0))
     drive.stop(Stop(engaged=True, id=5, by="ann", why=""), 1.0)
     judge.rest(True, 2.0)
     drive.stop(Stop(engaged=False, id=5, by="ann", why=""), 2.01)

@@ -98,11 +98,14 @@ REACHED: dict[State, list[str]] = {
 STATES: tuple[State, ...] = tuple(REACHED)
 SAME = dict.fromkeys(EVENTS)
 CALLED: dict[str, State] = {"stop": "stopped", "fail": "fault", "arm": "starting", "pause": "idle"}
+ANEW: dict[str, State] = {"release": "idle", "release another": "idle"}
+"""The end of a stop that was never heard is the end of all claims as well."""
 AGAIN: dict[str, State] = {"press": "driving", "act again": "driving"}
 TABLE: dict[State, dict[str, State | None]] = {
     "idle": SAME | CALLED | AGAIN | {"say again": None, "act no more": "link lost"},
     "driving": SAME
     | CALLED
+    | ANEW
     | {
         "let go": "idle",
         "silence": "link lost",
@@ -110,8 +113,8 @@ TABLE: dict[State, dict[str, State | None]] = {
         "act no more": "operator idle",
         "depart": "link lost",
     },
-    "link lost": SAME | CALLED | AGAIN | {"let go": "idle"},
-    "operator idle": SAME | CALLED | AGAIN | {"let go": "idle", "depart": "link lost"},
+    "link lost": SAME | CALLED | AGAIN | ANEW | {"let go": "idle"},
+    "operator idle": SAME | CALLED | AGAIN | ANEW | {"let go": "idle", "depart": "link lost"},
     "starting": SAME | CALLED | {"armed": "idle", "pause": None},
     "fault": SAME | CALLED | {"recover": "idle", "arm": None, "pause": None},
     "stopped": SAME | {"release": "idle"},

@@ -15,6 +15,7 @@ from zteleop.control.judge import Judge
 from zteleop.control.limiter import Limits
 from zteleop.control.mux import Source
 from zteleop.control.proof import NEVER, Proof, Prover
+from zteleop.control.standing import go_on, stand
 from zteleop.messages import Beat, Pwm, State, Stop, Twist
 
 TICK_US = 4.08
@@ -28,7 +29,7 @@ SILENCE = {"keyboard": 0.3, "gamepad": 0.3, "web": 0.3, "program": 0.5, "nav": 0
 SENDERS = ("keyboard", "keyboard", "web", "gamepad", "program")
 MAX_AGE, OPERATOR, LINK_LOSS, LATE, STAND_STILL = 0.3, 5.0, 2.0, 0.2, 0.5
 JUDGE_HEARS, JUDGE_LOOKS = 0.02, 0.05
-PRIORITY: tuple[State, ...] = ("stopped", "fault", "starting")
+PRIORITY: tuple[State, ...] = ("stopped", "fault", "starting", "link lost")
 
 
 class Told(NamedTuple):
@@ -88,6 +89,18 @@ class Truth:
     def free(self, reason: str, now: float) -> None:
         if self.holds.pop(reason, None):
             self.floor = now
+
+    def release_unheard(self, now: float) -> None:
+        """A stop that nobody here knew of is over: whoever drives begins anew."""
+        self.floor = now
+        self.claims.clear()
+
+    def relieve(self, driver: int, now: float) -> None:
+        """Another drive takes the place of one that was late, and knows only who drove last."""
+        self.holds.clear()
+        self.claims = {sender: claim for sender, claim in self.claims.items() if sender == driver}
+        self.heard = {sender: heard for sender, heard in self.heard.items() if sender == driver}
+        self.interrupt(now, LINK_LOSS)
 
     def interrupt(self, now: float, limit: float) -> None:
         self.interrupted = now
@@ -206,6 +219,8 @@ class World:
         self.recent: deque[Told] = deque(maxlen=12)
         self.stops: deque[int] = deque(maxlen=5)
         self.stop_in_force: Stop | None = None
+        self.away = False
+        """No drive steps: one was ended for being late, and another is about to take its place."""
         self.unsafe: str | None = None
         self.alarm: str | None = None
         self._identity = self._count = 0
@@ -234,13 +249,31 @@ class World:
             self.sabotage(self.drive)
         self._foreign = (self.now, True, NEVER)
         self.truth.holds.clear()
-        self.stops.clear()  # it knows none but the one that is kept
         self.truth.start(self.epoch, self.now)
+        self._keep_stop()
+        self.judge.hear_report(stand(self.drive, self.truth.since))
+
+    def _keep_stop(self) -> None:
+        """Let a new drive know of the stop that is kept, and of no other."""
+        self.stops.clear()
         if self.stop_in_force:
             self.drive.stop(self.stop_in_force, self.now)
             self.stops.append(self.stop_in_force.id)
             self.truth.hold("stop", "stopped")
-        self.judge.hear_report(self.epoch, self.now)
+
+    def take_over(self) -> None:
+        """Let another drive take the place of this one, which was ended for being late."""
+        standing = stand(self.drive, self.truth.since)
+        standing = standing._replace(floor=max(standing.floor, self.judge.released))
+        self._stepped = self.now
+        self.drive = Drive(SETTINGS, TICK_US, self.epoch, self.now)
+        if self.sabotage:
+            self.sabotage(self.drive)
+        go_on(self.drive, standing, "", self.now)
+        self._foreign = (self.now, True, standing.began if standing.sender < 0 else NEVER)
+        self.truth.relieve(max(standing.sender, 0), self.now)
+        self._keep_stop()
+        self.judge.hear_report(stand(self.drive, self.truth.since))
 
     def reboot(self, back: float) -> None:
         """Reboot; the robot's clock begins again, at a time that has been before."""
@@ -285,29 +318,34 @@ class World:
         if (late := self.drive.late(self.now)) > STAND_STILL:
             self.epoch += 1
             self.drive.restart(self.epoch, self.now)
-            self.judge.hear_report(self.epoch, self.now)
+            self.judge.hear_report(stand(self.drive, self.truth.since))
         elif late:
             self.drive.interrupt("it stood still", self.now, STAND_STILL)
         self._stepped = self.now
 
     def _arrive(self, told: Told) -> None:
+        if not self.away:
+            self._arrive_at_drive(told)
+        self._count += 1
+        due = max(self.now + self.random.random() * JUDGE_HEARS, self._due.get(told.sender, NEVER))
+        self._due[told.sender] = due  # what one sender says stays in order
+        heappush(self.ear, (due, self._count, told))
+
+    def _arrive_at_drive(self, told: Told) -> None:
         self._notice_pause()
         if told.proof is None and told.source == "nav":
             told = self._found(told)
         self.truth.hear(told, self.now)
         if self.drive.receive(told.source, told.command, told.proof, self.now):
             self.refused += 1
-        self._count += 1
-        due = max(self.now + self.random.random() * JUDGE_HEARS, self._due.get(told.sender, NEVER))
-        self._due[told.sender] = due  # what one sender says stays in order
-        heappush(self.ear, (due, self._count, told))
 
     def _found(self, told: Told) -> Told:
         """Return a command of a foreign sender as what its arrival makes it."""
         then, moved, began = self._foreign
-        if told.moving and (not moved or self.now - then > 0.5):
-            began = self.now
-        self._foreign = (self.now, told.moving, began)
+        begins = told.moving and (not moved or self.now - then > 0.5)
+        began = self.now if begins else began
+        if not begins or self.now - self.truth.interrupted > MAX_AGE:  # what may be old begins nothing
+            self._foreign = (self.now, told.moving, began)
         return told._replace(epoch=self.truth.epoch, beat=self.now, acted=self.now, began=began)
 
     def _let_judge_look(self, step: Step) -> None:
@@ -456,7 +494,9 @@ class World:
     def _release(self, kind: str) -> None:
         """Release the stop in force, or an older one, or one that never was."""
         force = self.stop_in_force
-        identity = force.id if force else 1
+        if kind == "right" and not force:
+            return
+        identity = force.id if force else self.random.getrandbits(53)
         if kind == "stale" and self.stops:
             identity = self.stops[0]
         elif kind == "wrong":
@@ -465,6 +505,8 @@ class World:
         if force and force.id == identity:
             self.stop_in_force = None
             self.truth.free("stop", self.now)
+        elif force is None and identity not in self.stops:
+            self.truth.release_unheard(self.now)
 
     def _fault(self, on: bool) -> None:
         self._rest("chip", "fault", on)
@@ -483,12 +525,27 @@ class World:
     def _deaf(self, on: bool) -> None:
         """The watchdog hears the robot on the bus, or does not."""
         if on:
-            self.drive.pause("deaf", "starting", "", self.now)
-            self.truth.holds["deaf"] = "starting"
+            self.drive.pause("deaf", "", self.now)
+            self.truth.holds["deaf"] = "link lost"
         else:
             self.drive.resume("deaf", "it was deaf", self.now)
             if self.truth.holds.pop("deaf", None):
                 self.truth.interrupt(self.now, LINK_LOSS)
+
+    def _relieve(self, seconds: float) -> None:
+        """Its watchdog ends the drive for being late; some time later another takes its place."""
+        self.away = True
+        end = self.now + seconds
+        while self.now < end:
+            self._carry_on(0.06)
+        self.away = False
+        self.take_over()
+
+    def _come_and_go(self, _: object) -> None:
+        """A stop comes and goes while no drive steps: only the watchdog has heard of it."""
+        self.judge.hear_release(self.now)
+        self.truth.floor = self.now
+        self._relieve(0.3)
 
     def _restart(self, _: object) -> None:
         self.start_actuator()
@@ -514,11 +571,13 @@ ACTS: dict[str, tuple[float, tuple[object, ...]]] = {
     "reorder": (2, (0.01, 0.1, 0.3)),
     "nav": (2, (True, True, False)),
     "stop": (0.8, ("new", "old", "old")),
-    "release": (3, ("right", "right", "stale", "wrong")),
+    "release": (3, ("right", "right", "right", "right", "stale", "wrong")),
     "fault": (0.8, (True, False, False)),
     "arm": (0.8, (True, False, False)),
     "deaf": (0.2, (True, False, False)),
     "pause": (0.4, (0.15, 0.21, 0.3, 0.45, 0.55, 3.0, 4 * 3600.0)),
+    "relieve": (0.3, (0.3, 0.9, 1.7, 2.3)),
+    "come_and_go": (0.2, (None,)),
     "restart": (0.3, (None,)),
     "reboot": (0.3, (0.05, 0.3, 0.6)),
 }
@@ -538,10 +597,12 @@ def walk(world: World, steps: int) -> None:
             _keep_still(world)
         if random.random() < 0.15:
             _come_back(world)
+        if random.random() < 0.15:
+            _be_away_for_long(world)
 
 
-def _drive_well(world: World) -> None:
-    """Let somebody drive with nothing in the way; the walk itself seldom lets it be for long."""
+def _drive_well(world: World) -> int:
+    """Let somebody drive with nothing in the way; the walk itself seldom lets it be for long. Return who."""
     who = world.random.choice(WHO)
     sender = world.senders[who]
     sender.speaks, sender.hears, sender.delay, sender.acts = True, True, 0.0, True
@@ -551,25 +612,60 @@ def _drive_well(world: World) -> None:
     for name in ("let_go", "press"):
         world.do(name, who)
         world.do("carry_on", 0.06)
+    return who
+
+
+INTERRUPTIONS = (
+    ("pause", 0.25),
+    ("pause", 0.4),
+    ("deaf", 0.7),
+    ("deaf", 1.7),
+    ("relieve", 0.6),
+    ("relieve", 1.6),
+)
 
 
 def _come_back(world: World) -> None:
     """Interrupt somebody who drives and acts all along, for a moment; nothing else happens meanwhile."""
-    _drive_well(world)
-    if world.do("carry_on", 0.06).state != "driving":
+    who = _drive_well(world)
+    state, driver = world.do("carry_on", 0.06).state, world.drive.driver
+    if state != "driving" or not driver or driver.sender != world.senders[who].identity:
         return
-    kind, seconds = world.random.choice((("pause", 0.25), ("pause", 0.4), ("deaf", 0.7), ("deaf", 1.7)))
-    if kind == "pause":
-        world.do("pause", seconds)
+    kind, seconds = world.random.choice(INTERRUPTIONS)
+    if kind != "deaf":
+        world.do(kind, seconds)
     else:
         world.do("deaf", True)
-        while seconds > 0:
-            seconds -= 0.06
-            world.do("carry_on", 0.06)
+        _go_on(world, seconds)
         world.do("deaf", False)
     states = [world.do("carry_on", 0.06).state for _ in range(4)]
     world.interrupted += 1
     world.came_back += "driving" in states
+
+
+def _be_away_for_long(world: World) -> None:
+    """Interrupt somebody who acts all along for longer than a claim may go on; then it must not."""
+    who = _drive_well(world)
+    kind = world.random.choice(("cut", "deaf", "relieve", "freeze and pause"))
+    if kind == "relieve":
+        world.do("relieve", 2.1)
+    elif kind == "freeze and pause":  # each for less than its limit, and together for more
+        world.do("freeze", who)
+        _go_on(world, 0.4)
+        world.do("pause", 0.3)
+        world.do("freeze", who)
+    else:
+        on, off = (who, who) if kind == "cut" else (True, False)
+        world.do(kind, on)
+        _go_on(world, 2.6)
+        world.do(kind, off)
+    _go_on(world, 0.3)
+
+
+def _go_on(world: World, seconds: float) -> None:
+    while seconds > 0:
+        seconds -= 0.06
+        world.do("carry_on", 0.06)
 
 
 def _keep_still(world: World) -> None:

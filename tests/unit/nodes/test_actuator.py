@@ -8,6 +8,7 @@ from zteleop.bus.subscription import Received
 from zteleop.control.drive import SOURCES, DriveSettings
 from zteleop.control.mux import Source
 from zteleop.control.proof import Proof, Prover
+from zteleop.control.standing import NOBODY, Standing
 from zteleop.errors import DeviceError
 from zteleop.messages import Beat, DriveStatus, Int16MultiArray, Message, MultiArrayLayout, Pwm, Stop, Twist
 from zteleop.nodes.actuator import (
@@ -19,9 +20,10 @@ from zteleop.nodes.actuator import (
     TELL_EVERY,
     WATCHDOG_SILENCE,
     Actuator,
+    UnwatchedError,
 )
 from zteleop.nodes.health import LOOK_EVERY, Health
-from zteleop.nodes.link import Report, Words
+from zteleop.nodes.link import UNWATCHED, Report, Words
 from zteleop.nodes.output import REPAIR_EVERY
 
 NEUTRAL = {0: 1509.6, 1: 1530.0}
@@ -84,11 +86,19 @@ class Robot:
         shelf: Shelf | None = None,
         hears: bool = True,
         health: Health | None = None,
+        standing: Standing | None = None,
     ) -> None:
         self.node, self.clock = node, clock
         self.chip, self.link, self.shelf, self.journal = chip or Chip(), Link(), shelf or Shelf(), Journal()
         self.actuator = Actuator(
-            node, settings or DriveSettings(), self.chip, self.link, self.shelf, self.journal, health
+            node,
+            settings or DriveSettings(),
+            self.chip,
+            self.link,
+            self.shelf,
+            self.journal,
+            health,
+            standing,
         )
         self.actuator.run()
         self.prover = Prover(7)
@@ -200,7 +210,7 @@ def test_a_watchdog_that_hears_no_longer_brings_rest(robot: Robot) -> None:
     assert robot.chip.pulses != NEUTRAL
     robot.hear(Words(False, None))
     robot.tick()
-    assert (robot.status.state, robot.chip.pulses) == ("starting", NEUTRAL)
+    assert (robot.status.state, robot.chip.pulses) == ("link lost", NEUTRAL)
 
 
 def test_whoever_drove_before_the_watchdog_was_deaf_for_a_moment_drives_on(robot: Robot) -> None:
@@ -243,6 +253,37 @@ def test_while_the_esc_arms_it_is_starting(node: Node, clock: Clock) -> None:
     robot.tick(2)
     assert robot.status.state == "idle"
     assert node.said["vehicle"].messages[-1].ready
+
+
+def test_one_in_anothers_place_goes_on_with_the_next_act_and_arms_nothing(node: Node, clock: Clock) -> None:
+    now, prover = clock.time, Prover(7)
+    prover.act(Beat(5, now - 3.0))
+    prover.prove(Beat(5, now - 3.0), True, 0.0)
+    standing = Standing(
+        5, now - 9.0, now - 8.0, now - 8.0, list(SOURCES).index("keyboard"), 7, now - 3.0, now - 1.0
+    )
+    robot = Robot(node, clock, chip=Chip(arming=2.0), hears=None, standing=standing)
+    assert robot.beat.epoch == 5
+    assert (robot.status.state, robot.status.why) == (
+        "link lost",
+        "the watchdog does not hear this robot on the bus",
+    )
+    robot.hear(Words(True, None))
+    robot.tick()
+    assert robot.status.why.endswith("; keyboard goes on with its next act")
+    robot.prover = prover
+    for _ in range(3):
+        prover.act(robot.beat)
+        robot.say(PUSH, proof=prover.prove(robot.beat, True, 0.1))
+        robot.tick()
+    assert robot.chip.pulses != NEUTRAL
+    assert ("interruption", {"why": "its actuator came late, and was started again"}) in robot.journal.events
+
+
+def test_one_that_nobody_watches_ends_with_a_code_of_its_own(robot: Robot) -> None:
+    with pytest.raises(UnwatchedError) as ended:
+        robot.tick(round(WATCHDOG_SILENCE / PERIOD) + 2, watched=False)
+    assert ended.value.exit_code == UNWATCHED
 
 
 def test_a_stop_that_was_kept_holds_from_the_start(node: Node, clock: Clock) -> None:
@@ -314,9 +355,11 @@ def test_it_reports_every_step_to_the_watchdog(robot: Robot) -> None:
     robot.tick()
     robot.say(PUSH)
     first, second = robot.link.reports[-2:]
-    assert first == (robot.clock.time, robot.beat.epoch, first.since)
-    assert second == first
-    assert first.since < robot.clock.time
+    assert first.stepped == second.stepped == robot.clock.time
+    assert first.standing.epoch == second.standing.epoch == robot.beat.epoch
+    assert first.standing.source == NOBODY
+    assert (second.standing.sender, second.standing.counted) == (robot.prover.sender, robot.clock.time)
+    assert first.standing.since < robot.clock.time
 
 
 def test_a_chip_that_fails_is_a_fault_until_it_is_repaired_through_neutral(robot: Robot) -> None:

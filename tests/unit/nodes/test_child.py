@@ -12,11 +12,14 @@ from typing import Any
 
 import pytest
 
+from zteleop.cli.obey import orders
+from zteleop.control.standing import Standing
 from zteleop.nodes import child as module
 from zteleop.nodes import link
 from zteleop.nodes.child import FIRST_PAUSE, LONGEST_PAUSE, PATIENCE, STEADY, Child
 from zteleop.nodes.link import Report
 
+STANDING = Standing(1, 100.5, 100.75, 101.0, 2, 7, 100.9, 101.25)
 SLEEPER = [sys.executable, "-S", "-c", "import time; time.sleep(60)"]
 ECHO = [sys.executable, "-S", "-c", "import sys; open(sys.argv[1], 'wb').write(sys.stdin.buffer.read())"]
 
@@ -99,8 +102,16 @@ def test_it_is_started_with_its_link_its_files_and_its_settings(child: Child, nu
     *command, option, number = process.command
     assert (command, option) == (["zteleop", "actuator"], "--link")
     assert process.options["pass_fds"] == [int(number), 33]
-    assert (process.stdin.data, process.stdin.closed) == (b"settings", True)
+    assert (process.stdin.data, process.stdin.closed) == (b"settings\nnull", True)
     assert (child.starts, child.ready, child.gone) == (1, False, False)
+
+
+def test_one_in_anothers_place_is_told_where_that_one_stood(nursery: Nursery) -> None:
+    child = Child(["zteleop"], b'{"robot": "bench"}')
+    child.start(100.0, STANDING)
+    settings, standing = orders(nursery.born[0].stdin.data)
+    assert (settings.robot, standing) == ("bench", STANDING)
+    child.end(0.0)
 
 
 def test_one_that_dies_before_it_reads_its_settings_is_no_error(
@@ -130,9 +141,9 @@ def test_its_silence_counts_from_the_start_until_it_reports(
     child.hear()
     assert (child.ready, child.silence(101.5)) == (False, 1.5)
     for stepped in (101.0, 101.6):
-        sockets[0].report(Report(stepped, 1, 100.5))
+        sockets[0].report(Report(stepped, STANDING))
     child.hear()
-    assert (child.ready, child.newest) == (True, Report(101.6, 1, 100.5))
+    assert (child.ready, child.newest) == (True, Report(101.6, STANDING))
     child.hear()
     assert child.silence(102.0) == pytest.approx(0.4)
     child.end(0.0)
@@ -190,7 +201,7 @@ def test_a_real_one_gets_its_settings_and_ends_with_its_code(tmp_path: Any) -> N
     child = Child([*ECHO, str(tmp_path / "said")], settings)
     child.start(100.0)
     assert child.end(5.0) == 0
-    assert (tmp_path / "said").read_bytes() == settings
+    assert (tmp_path / "said").read_bytes() == settings + b"\nnull"
 
 
 def test_the_link_ends_with_the_child_although_a_sibling_lives_on() -> None:
@@ -228,5 +239,5 @@ def test_a_frozen_one_is_killed() -> None:
 
 @pytest.mark.parametrize("stepped", [float("nan"), float("inf"), 1e308, 1000.0])
 def test_a_step_at_no_time_or_yet_to_come_is_silence_since_the_start(child: Child, stepped: float) -> None:
-    child.newest, child.started = Report(stepped, 1, 0.0), 900.0
+    child.newest, child.started = Report(stepped, STANDING), 900.0
     assert child.silence(999.0) == 99.0  # a figure that can be told: the bus takes no other

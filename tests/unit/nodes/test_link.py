@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import msgspec
 import pytest
 
+from zteleop.control.standing import Standing
 from zteleop.errors import DeviceError
 from zteleop.messages import Stop
 from zteleop.nodes import link
@@ -13,10 +14,16 @@ from zteleop.nodes.link import DEAF, HEARS, ActuatorEnd, Report, WatchdogEnd, Wo
 MORE_THAN_FITS = 20_000
 STOPPED = Stop(engaged=True, id=5, by="ann", why="the cat")
 TEXT = msgspec.json.encode(STOPPED)
+SIZE = link._REPORT.size
 
 
 def report(number: int) -> Report:
-    return Report(1000.0 + number, number, 999.5)
+    return Report(1000.0 + number, Standing(number, 999.5, 999.5, 999.5))
+
+
+def packed(number: int) -> bytes:
+    said = report(number)
+    return link._REPORT.pack(said.stepped, *said.standing)
 
 
 class Ends:
@@ -34,7 +41,7 @@ def ends() -> Iterator[Ends]:
 
 
 def test_a_report_arrives_as_it_was_said(ends: Ends) -> None:
-    said = Report(16431.502, 2**53 - 1, 12.25)
+    said = Report(16431.502, Standing(2**53 - 1, 12.25, 13.5, 14.75, 3, -1, 15.0, 16431.5))
     ends.actuator.report(said)
     assert ends.dog.read() == said
 
@@ -51,13 +58,13 @@ def test_of_several_reports_the_newest_counts(ends: Ends) -> None:
     assert ends.dog.read() is None
 
 
-@pytest.mark.parametrize("torn", [1, 8, 23, 25, 47])
+@pytest.mark.parametrize("torn", [1, 8, SIZE - 1, SIZE, SIZE + 1, 2 * SIZE - 1])
 def test_a_torn_report_waits_for_its_rest(torn: int) -> None:
     ours, theirs = socket.socketpair()
     dog = WatchdogEnd(ours)
-    data = link._REPORT.pack(*report(1)) + link._REPORT.pack(*report(2))
+    data = packed(1) + packed(2)
     theirs.send(data[:torn])
-    assert dog.read() == (report(1) if torn >= 24 else None)
+    assert dog.read() == (report(1) if torn >= SIZE else None)
     theirs.send(data[torn:])
     assert dog.read() == report(2)
     dog.close()
@@ -70,8 +77,8 @@ def test_a_frozen_watchdog_neither_blocks_nor_tears_what_it_reads_later(ends: En
     heard = []
     while newest := ends.dog.read():
         heard.append(newest)
-    assert heard == [report(int(found.epoch)) for found in heard]
-    assert heard[-1].epoch < MORE_THAN_FITS - 1, "the test never filled the link"
+    assert heard == [report(found.standing.epoch) for found in heard]
+    assert heard[-1].standing.epoch < MORE_THAN_FITS - 1, "the test never filled the link"
     ends.actuator.report(report(7))
     assert ends.dog.read() == report(7)
 

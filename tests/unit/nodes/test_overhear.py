@@ -6,6 +6,7 @@ from zteleop.control.drive import SOURCES, DriveSettings
 from zteleop.control.judge import GRACE, Judge
 from zteleop.control.mux import Source
 from zteleop.control.proof import Proof, Prover
+from zteleop.control.standing import Standing
 from zteleop.messages import Beat, Message, Pwm, Stop, String
 from zteleop.nodes.overhear import DEAF_AFTER, Overhearing
 
@@ -22,7 +23,7 @@ class Room:
         self.now, self.node, self.shelf = 100.0, Node(), Shelf()
         settings = DriveSettings(sources={"nav": Source(10)})
         self.judge = Judge(settings, 4.08, self.now)
-        self.judge.hear_report(1, self.now - 1.0)
+        self.judge.hear_report(Standing(1, *[self.now - 1.0] * 3))
         self.ears = Overhearing(self.node, settings, self.judge, self.shelf)
         self.prover = Prover(7)
 

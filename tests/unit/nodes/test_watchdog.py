@@ -9,11 +9,12 @@ from zteleop.bus.subscription import Received
 from zteleop.control.drive import DriveSettings
 from zteleop.control.judge import GRACE
 from zteleop.control.proof import Prover
+from zteleop.control.standing import Standing
 from zteleop.errors import DeviceError
 from zteleop.messages import Beat, Message, Pwm, Stop, WatchdogStatus
 from zteleop.nodes import service
 from zteleop.nodes import watchdog as module
-from zteleop.nodes.link import DEAF, HEARS, Report
+from zteleop.nodes.link import DEAF, HEARS, UNWATCHED, Report
 from zteleop.nodes.watchdog import (
     FAREWELL,
     LOOK_EVERY,
@@ -52,6 +53,9 @@ class Child:
         """It does not end when it is asked to."""
         self.beats = True
         """Its beats arrive on the bus."""
+        self.standing = Standing(EPOCH, 999.0, 999.0, 999.0)
+        self.followed: list[Standing | None] = []
+        """In whose place each of them was started."""
         self.code: int | None = None
         self.log: list[str] = []
 
@@ -63,7 +67,8 @@ class Child:
     def gone(self) -> bool:
         return not self.alive
 
-    def start(self, now: float) -> None:
+    def start(self, now: float, standing: Standing | None = None) -> None:
+        self.followed.append(standing)
         self.starts, self.started, self.newest = self.starts + 1, now, None
         self.alive, self.dead = True, False
         self.link = SimpleNamespace(fileno=lambda: FILE, say=self.words.append, stop=self.stops.append)
@@ -73,7 +78,7 @@ class Child:
         if self.dead:
             raise EOFError
         if not self.frozen:
-            self.newest = Report(self.clock.time, EPOCH, 999.0)
+            self.newest = Report(self.clock.time, self.standing)
 
     def silence(self, now: float) -> float:
         return now - (self.newest.stepped if self.newest else self.started)
@@ -521,3 +526,62 @@ def test_a_chip_that_was_never_there_is_not_waited_for_long(kennel: Kennel) -> N
     kennel.dog.run()
     assert kennel.clock.time - began < GRACE + 2 * PERIOD
     assert kennel.node.errors == []
+
+
+WENT = Standing(EPOCH, 999.0, 999.5, 999.6, 2, 7, 1000.0, 1000.5)
+
+
+def test_an_actuator_that_was_only_late_is_followed_by_one_in_its_place(awake: Kennel) -> None:
+    awake.child.standing = WENT
+    awake.live(0.1)
+    awake.child.frozen = True
+    awake.until(lambda: awake.restarted)
+    assert awake.child.followed == [None, WENT]
+
+
+def test_one_that_crashed_or_would_not_stop_is_followed_by_a_start(awake: Kennel) -> None:
+    awake.child.standing = WENT
+    awake.live(0.1)
+    awake.child.code, awake.child.dead = 1, True
+    awake.until(lambda: awake.restarted)
+    awake.live(0.1)
+    awake.child.moves = True
+    awake.until(lambda: awake.child.starts == 3)
+    assert awake.child.followed == [None] * 3
+
+
+def test_one_that_ended_because_the_watchdog_was_late_is_followed_by_one_in_its_place(awake: Kennel) -> None:
+    awake.child.standing = WENT
+    awake.live(0.1)
+    awake.child.code, awake.child.dead = UNWATCHED, True
+    awake.until(lambda: awake.restarted)
+    assert awake.child.followed == [None, WENT]
+
+
+def test_one_that_is_late_before_its_first_step_hands_on_what_it_was_told(awake: Kennel) -> None:
+    awake.child.standing = WENT
+    awake.live(0.1)
+    awake.child.frozen = True
+    awake.until(lambda: awake.child.starts == 3)
+    assert awake.child.followed == [None, WENT, WENT]
+
+
+def test_a_release_that_the_late_one_did_not_hear_ends_what_it_stood_for(awake: Kennel) -> None:
+    awake.child.standing = WENT
+    awake.live(0.1)
+    awake.child.frozen = True
+    awake.hear("stop", Stop(engaged=False, id=5, by="ann", why=""))
+    before = awake.clock.time
+    awake.until(lambda: awake.restarted)
+    floor = awake.child.followed[-1].floor
+    assert before <= floor <= awake.clock.time
+    assert awake.child.followed[-1] == WENT._replace(floor=floor)
+
+
+def test_beats_of_the_one_that_is_gone_are_not_the_next_ones(awake: Kennel) -> None:
+    awake.child.frozen = True
+    awake.until(lambda: awake.restarted)
+    awake.child.frozen, awake.child.beats = False, False
+    awake.child.words.clear()
+    awake.live(0.2)
+    assert set(awake.child.words) == {DEAF}
