@@ -21,7 +21,7 @@ from zteleop.drivers.chip_file import FILE_SIZE, map_file
 from zteleop.drivers.simulated import SimulatedSettings, open_driver
 from zteleop.errors import ConfigError, DeviceError
 from zteleop.messages import MESSAGES
-from zteleop.nodes import blackbox_file
+from zteleop.nodes import blackbox_file, link
 from zteleop.nodes.child import Child
 from zteleop.nodes.journal_file import JournalFile, Line
 from zteleop.nodes.link import ActuatorEnd, WatchdogEnd
@@ -43,7 +43,7 @@ def config_text(data: bytes) -> None:
 def orders(data: bytes) -> None:
     """Read what a watchdog gives its actuator on standard input."""
     try:
-        settings = obey.orders(data)
+        settings, _ = obey.orders(data)
     except ConfigError:
         return
     use(settings)
@@ -84,7 +84,7 @@ def link_of_watchdog(data: bytes) -> None:
             child.hear()
         assert child.silence(101.0) >= 0
         assert child.silence(1e300) > 1
-    assert len(end._rest) < 24
+    assert len(end._rest) < link._REPORT.size
     end.close()
 
 

@@ -163,6 +163,8 @@ def keyboard(rig: Rig, truth: Node, seats: list[Terminal]) -> Iterator[Terminal]
     yield seat
     for kind in (Beat, Vehicle):
         hear(truth.subscription(kind.__name__.lower(), kind), lambda message: True, "the truth again")
+    # Beats that crowd out the true ones are an interruption, and who presses first during one begins anew.
+    hear(truth.subscription("drive_status", DriveStatus), lambda status: status.state == "idle", "free again")
     draw_anew(seat)
     key, pattern = next(KEYS)
     seat.type(key)

@@ -11,7 +11,7 @@ from zteleop.control.drive import Drive, DriveSettings
 from zteleop.control.explain import layers
 from zteleop.control.refusals import RefusedSenders
 from zteleop.control.report import describe, refusals, status
-from zteleop.control.standing import Standing, go_on, stand
+from zteleop.control.standing import NOBODY, Standing, go_on, stand
 from zteleop.control.stop import describe as describe_stop
 from zteleop.drivers import PulseDriver
 from zteleop.errors import DeviceError, MessageError
@@ -68,8 +68,8 @@ class Actuator:
         now = self._since = clock.now()
         self._drive = Drive(settings, driver.tick_us, standing.epoch if standing else _epoch(), now)
         self._output = Output(driver, self._drive, self._tell_chip)
-        # In another's place there is no pause to arm: the watchdog has kept the chip at neutral.
-        self._output.start(now, arm=standing is None)
+        # Whoever drove had an ESC that was armed, and the watchdog has kept the chip at neutral since.
+        self._output.start(now, arm=standing is None or standing.source == NOBODY)
         self._refused = RefusedSenders()
         self._drive.latch.released = stop_file.released()
         if standing:

@@ -280,6 +280,12 @@ def test_one_in_anothers_place_goes_on_with_the_next_act_and_arms_nothing(node: 
     assert ("interruption", {"why": "its actuator came late, and was started again"}) in robot.journal.events
 
 
+def test_one_in_the_place_of_another_that_nobody_drove_lets_the_esc_arm(node: Node, clock: Clock) -> None:
+    standing = Standing(5, *[clock.time - 1.0] * 3)
+    robot = Robot(node, clock, chip=Chip(arming=2.0), standing=standing)
+    assert (robot.status.state, robot.status.why) == ("starting", "neutral for 2 s while the ESC arms")
+
+
 def test_one_that_nobody_watches_ends_with_a_code_of_its_own(robot: Robot) -> None:
     with pytest.raises(UnwatchedError) as ended:
         robot.tick(round(WATCHDOG_SILENCE / PERIOD) + 2, watched=False)
