@@ -2,6 +2,7 @@
 
 import os
 import pty
+import re
 import signal
 import socket
 import subprocess
@@ -28,6 +29,7 @@ from zteleop.messages import Message
 from zteleop.nodes import realtime
 
 M = TypeVar("M", bound=Message)
+ROOT = Path(__file__).parents[1]
 THROTTLE, STEERING = 0, 1
 NEUTRAL = (375, 370)
 PATIENCE = 30.0 * float(os.environ.get("ZTELEOP_PATIENCE", "1"))
@@ -418,6 +420,12 @@ class Rig:
             return bool(heard.beat and heard.vehicle)
 
         until(known, "a beat")
+
+
+def readme_program(robot: str) -> str:
+    """Return the program in README as it stands, but for the robot's name."""
+    (program,) = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)
+    return str(program).replace("archangel", robot)
 
 
 @contextmanager

@@ -295,9 +295,9 @@ def test_a_keyboard_survives_reports_that_are_nearly_right(say: Say, keyboard: T
 @pytest.mark.parametrize(
     "report",
     [
-        Beat(-1, 0.0),
-        Beat(2**64, 0.0),
-        Beat(1, 1e308),
+        Beat(-1, 0.0, 0.0),
+        Beat(2**64, 0.0, 0.0),
+        Beat(1, 1e308, 0.0),
         msgspec.structs.replace(Vehicle.zero(), kind="ackermann"),
         msgspec.structs.replace(Vehicle.zero(), kind="differential"),
         Log(Log.zero().stamp, 255, HOSTILE, HOSTILE, "", "", 0),

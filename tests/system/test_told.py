@@ -122,3 +122,22 @@ def test_a_stop_that_came_and_went_while_the_link_was_cut_needs_a_person(rig: Ri
                 pass
         assert watch.seen == {NEUTRAL}
     assert "begins anew" not in shell.text
+
+
+def test_the_second_of_two_keyboards_shows_why_it_does_not_drive(rig: Rig) -> None:
+    rig.actuator()
+    first, second = rig.keyboard(columns=120), rig.keyboard(columns=120)
+    for keyboard in (first, second):
+        keyboard.shows("idle, nobody operates")
+    first.type("a")
+    first.shows("driving, you operate")
+    second.type("d")
+    second.shows("another sender drives this source")
+    assert "another sender" not in first.screen
+    first.type("x")
+    until(lambda: rig.ticks == NEUTRAL, "neutral")
+    second.type("x")
+    second.shows("straight", "idle, nobody operates")
+    second.type("d")
+    second.shows("driving, you operate")
+    second.shows("outputting:[Steering PWM, Throttle PWM] = [360, 370]")

@@ -5,12 +5,18 @@ import signal
 import time
 
 import pytest
-from rig import NEUTRAL, Process, Rig, Watch, every, until
-from verdict import excusable
+from rig import NEUTRAL, Process, Rig, Watch, every, hear, readme_program, repeating, until
+from verdict import Deadline, excusable
+
+from zteleop.bus.node import Node
+from zteleop.messages import DriveStatus, Stop, Twist
+from zteleop.nodes.actuator import UNHEARD
 
 MOMENT = 0.28
 """s: longer than a step may be late, shorter than what nobody may outlive"""
 LONG = 0.7
+TOLD = 1.0
+"""s from the first command that is refused until its program knows"""
 
 
 def moves(rig: Rig) -> bool:
@@ -81,3 +87,40 @@ def test_after_a_long_one_it_waits_and_says_why(rig: Rig, robot: Process) -> Non
     until(lambda: rig.ticks == NEUTRAL, "neutral")
     for _ in every(0.005, 200):
         assert rig.ticks == NEUTRAL
+
+
+def test_readmes_program_drives_on_after_a_stall_and_deafness_and_is_told_of_a_restart(rig: Rig) -> None:
+    rig.robot = f"coming-back-{os.getpid()}"  # others may be on this network, which is everybody's default
+    robot = rig.run("actuator", "--robot", rig.robot)
+    robot.says("obeys")
+    program = rig.program(readme_program(rig.robot))
+    until(lambda: moves(rig), "motion")
+    with excusable(0.1, rig), Watch(rig) as watch, Node("stranger", rig.robot) as stranger:
+        hold_up(robot, MOMENT)
+        robot.says("whoever drove goes on with the next act")
+        until(lambda: moves(rig), "motion after a stall")
+        statuses = stranger.subscription("drive_status", DriveStatus)
+        false_beats = stranger.session.declare_publisher(f"robot/{rig.robot}/beat")
+        with repeating(lambda: false_beats.put(b"none"), 0.001):
+            hear(statuses, lambda status: UNHEARD in status.why, "a robot that is deaf to itself")
+        until(lambda: moves(rig), "motion after deafness")
+        assert NEUTRAL in watch.seen
+    assert "let go first" not in robot.text + program.text
+    assert robot.child
+    os.kill(robot.child, signal.SIGKILL)
+    program.says(f"cmd_vel is refused by robot {rig.robot}: it was moving before the robot started")
+    for _ in every(0.005, 200):
+        assert rig.ticks == NEUTRAL
+
+
+def test_whoever_is_refused_knows_within_a_second(rig: Rig) -> None:
+    rig.actuator()
+    node = rig.node()
+    motors, stops = node.publisher("cmd_vel", Twist), node.publisher("stop", Stop)
+    until(lambda: stops.matched, "somebody who hears stops")
+    with repeating(lambda: motors.publish(Twist.planar(0.3)), 0.1):
+        until(lambda: moves(rig), "motion")
+        deadline = Deadline(rig)
+        stops.publish(Stop(True, 7, "ann", ""))
+        deadline.met(lambda: motors.refused, "the refusal at the sender's own end", TOLD)
+    assert "stopped by ann" in motors.refused

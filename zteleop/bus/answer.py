@@ -8,8 +8,8 @@ from zteleop.messages import Refusals
 
 UNHEARD = 1.0
 """s without a beat while somebody commands"""
-LASTS = 1.0
-"""s that a refusal holds which the robot does not repeat"""
+LASTS = 2.0
+"""s that a refusal holds which the robot does not repeat; a slow stream asks seldom"""
 ANEW = "when whoever watches the robot wants it to move, start this anew (a program may let_go())"
 ADVICE: dict[str, str] = {
     Refusal.EARLIER_START: ANEW,

@@ -12,7 +12,7 @@ from zteleop.control.hold import PAUSE, Holds
 from zteleop.control.limiter import Limits, TwistLimiter, WheelLimiter
 from zteleop.control.mixer import Ackermann, Mixer, Wheels
 from zteleop.control.mux import HEARD_LATE, Claim, Mux, Source
-from zteleop.control.proof import NEVER, Proof, Prover
+from zteleop.control.proof import LAPSE, NEVER, Proof, Prover
 from zteleop.control.servo import Servo
 from zteleop.control.stop import Latch, describe
 from zteleop.messages import Beat, Pwm, State, Stop, Twist
@@ -32,7 +32,7 @@ SOURCES = {
 }
 
 FOREIGN_SILENCE = 0.5
-"""s after which a foreign sender that moved begins anew."""
+"""s after which a foreign sender that moved begins anew, unless its claim is over."""
 
 
 class DriveSettings(Struct, frozen=True, forbid_unknown_fields=True):
@@ -113,7 +113,7 @@ class Drive:
         self._wheel_limiter = WheelLimiter(settings.limits, settings.mixer, settings.servos)
         self.calibration = Calibration(settings.servos, tick_us)
         self._foreign: dict[str, Prover] = {}
-        self._foreign_silence = FOREIGN_SILENCE - grace
+        self._foreign_pauses = FOREIGN_SILENCE - grace, 0.0 if grace else LAPSE
         self._since = self._stepped = now
 
     def late(self, now: float) -> float:
@@ -135,12 +135,16 @@ class Drive:
         """The claim that drove last, unless it was let go or has lost its place."""
         return next((claim for claim in self.mux.claims if claim.sender == self._drove), None)
 
+    def beat(self, now: float) -> Beat:
+        """Return what commands must echo from now on."""
+        return Beat(self.gate.epoch, now, self.gate.floor)
+
     def recall(self, source: str, sender: int, began: float, counted: float, now: float) -> None:
         """Keep the place of a claim that drove under another drive of this epoch; `interrupt` must follow."""
         if sender < 0:
-            prover = self._foreign[source] = Prover(-1, self._foreign_silence)
-            prover.act(Beat(self.gate.epoch, began))
-            prover.prove(Beat(self.gate.epoch, began), True, now)
+            prover = self._foreign[source] = Prover(-1, *self._foreign_pauses)
+            prover.act(self.beat(began))
+            prover.prove(self.beat(began), True, now)
             sender = prover.sender
         self.gate.recall(sender, began, counted)
         self.mux.offer(Claim(source, sender, Twist.zero(), counted, counted, 0, counted, began))
@@ -200,7 +204,7 @@ class Drive:
         unproven = proof is None and self._sources[source].trust == "arrival"
         if unproven and moving and now - self.mux.interrupted <= self.settings.deadlines.max_age:
             # Nobody can prove that it was not said before the interruption ended, and queued meanwhile.
-            (self._foreign.get(source) or self._meet(source)).hold_on(now)
+            (self._foreign.get(source) or self._meet(source)).hold_on(self.beat(now), now)
             return self._refuse(source, Refusal.INTERRUPTED, now)
         if unproven:
             proof = self._vouch(source, moving, now)
@@ -294,13 +298,13 @@ class Drive:
     def _vouch(self, source: str, moving: bool, now: float) -> Proof | None:
         """Make the proof of a foreign sender from its arrival: each command is an act of now."""
         prover = self._foreign.get(source) or self._meet(source)
-        beat = Beat(self.gate.epoch, now)
+        beat = self.beat(now)
         prover.act(beat)
         return prover.prove(beat, moving, now)
 
     def _meet(self, source: str) -> Prover:
         """Make a foreign sender's prover; what it did before the start, nobody knows."""
-        prover = self._foreign[source] = Prover(-len(self._foreign) - 1, self._foreign_silence)
+        prover = self._foreign[source] = Prover(-len(self._foreign) - 1, *self._foreign_pauses)
         if not self._sources[source].resume:
             prover.prove(None, True, self._since)
         return prover

@@ -9,6 +9,8 @@ from typing import NamedTuple
 from zteleop.messages import Beat
 
 NEVER = float("-inf")
+LAPSE = 2.0
+"""s of silence after which nobody takes what is said next for the rest of a claim that is over."""
 
 
 class Proof(NamedTuple):
@@ -30,8 +32,8 @@ class Proof(NamedTuple):
 class Prover:
     """Makes the proofs of one sender."""
 
-    def __init__(self, sender: int, silence: float = 0.5) -> None:
-        self._sender, self._silence = sender, silence
+    def __init__(self, sender: int, silence: float = 0.5, lapse: float = LAPSE) -> None:
+        self._sender, self._silence, self._lapse = sender, silence, max(silence, lapse)
         self._seq = 0
         self._epoch = -1
         self._acted = self._began = NEVER
@@ -51,13 +53,13 @@ class Prover:
     def prove(self, beat: Beat | None, moving: bool, now: float) -> Proof | None:
         """Return the proof of a command sent now, by the sender's clock; None before the first beat.
 
-        A claim that was moving before the robot started never has a beginning:
-        it must be let go, or fall silent, first.
+        A claim that was moving before the robot started, or before a release, never has a beginning:
+        it must be let go, or fall silent for `LAPSE`, first. However slow its messages are, a stream
+        does not begin anew by itself.
         """
         if beat:
             self._hear(beat)
-        leaves_neutral = moving and (not self._moving or now - self._then > self._silence)
-        if leaves_neutral:
+        if moving and (not self._moving or self._has_paused(beat, now)):
             self._began = self._acted
         self._moving, self._then = moving, now
         if beat is None:
@@ -65,14 +67,19 @@ class Prover:
         self._seq += 1
         return Proof(self._sender, self._seq, beat.epoch, beat.time, self._acted, self._began)
 
-    def hold_on(self, now: float) -> None:
+    def hold_on(self, beat: Beat, now: float) -> None:
         """Note that what moves goes on moving, although nothing is proved: it has not paused."""
-        if now - self._then <= self._silence:
+        if not self._has_paused(beat, now):
             self._then = now
 
     def let_go(self) -> None:
         """End the claim: what moves next begins anew."""
         self._moving = False
+
+    def _has_paused(self, beat: Beat | None, now: float) -> bool:
+        """Say whether what moves now is another claim than what moved before."""
+        is_over = beat is None or self._began <= beat.floor
+        return now - self._then > (self._lapse if is_over else self._silence)
 
     def _hear(self, beat: Beat) -> None:
         if beat.epoch != self._epoch:

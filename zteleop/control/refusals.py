@@ -3,10 +3,11 @@
 from typing import NamedTuple
 
 from zteleop.control.gate import Refusal
+from zteleop.control.proof import LAPSE
 
 TOLD_AFTER = 0.5
 """s of refusals without one command that counted; a single late command is nobody's news"""
-FORGOTTEN_AFTER = 1.0
+FORGOTTEN_AFTER = LAPSE
 """s without a command"""
 SENDERS = 64
 """How many are remembered; whoever comes then waits until one is obeyed or silent."""

@@ -27,6 +27,8 @@ class Beat(Message):
 
     epoch: Annotated[int, Meta(ge=0, lt=2**53)]
     time: float
+    floor: float
+    """Claims that began up to then are over: the start, or the latest release of a stop or a fault."""
 
 
 class Channel(Message):

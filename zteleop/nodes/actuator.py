@@ -236,7 +236,7 @@ class Actuator:
         self._step_soon(now)  # strangers may come and go by the thousand
 
     def _tell(self) -> None:
-        self._beats.publish(Beat(self._drive.gate.epoch, clock.now()))
+        self._beats.publish(self._drive.beat(clock.now()))
         self._tell_status()
 
     def _tell_status(self) -> None:

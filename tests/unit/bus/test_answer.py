@@ -33,7 +33,7 @@ class Sender:
         for _ in range(round(seconds * 10) or 1):
             self.clock.pass_by(0.1)
             if beats:
-                self.beats.samples.append(sample(Beat(1, self.clock.time)))
+                self.beats.samples.append(sample(Beat(1, self.clock.time, 0.0)))
             if listens:
                 self.heard.listen()
             self.answer.heed(moving)

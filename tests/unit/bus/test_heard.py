@@ -49,19 +49,19 @@ def test_at_first_nothing_is_known(robot: Heard) -> None:
 
 
 def test_the_beat_that_arrived_last_counts(robot: Heard, beats: Ring, clock: Clock) -> None:
-    beats.samples += [sample(Beat(1, 5.0)), sample(Beat(1, 5.05))]
+    beats.samples += [sample(Beat(1, 5.0, 0.0)), sample(Beat(1, 5.05, 0.0))]
     robot.listen()
-    assert (robot.beat, robot.at) == (Beat(1, 5.05), clock.time)
+    assert (robot.beat, robot.at) == (Beat(1, 5.05, 0.0), clock.time)
 
 
 def test_silence_changes_neither_the_beat_nor_when_it_was_heard(
     robot: Heard, beats: Ring, clock: Clock
 ) -> None:
-    beats.samples.append(sample(Beat(1, 5.0)))
+    beats.samples.append(sample(Beat(1, 5.0, 0.0)))
     robot.listen()
     clock.pass_by(3.0)
     robot.listen()
-    assert (robot.beat, robot.at) == (Beat(1, 5.0), clock.time - 3.0)
+    assert (robot.beat, robot.at) == (Beat(1, 5.0, 0.0), clock.time - 3.0)
 
 
 def test_it_knows_when_it_last_listened_for_a_beat(robot: Heard, clock: Clock) -> None:
@@ -71,7 +71,7 @@ def test_it_knows_when_it_last_listened_for_a_beat(robot: Heard, clock: Clock) -
 
 
 def test_whom_the_robot_refuses_is_heard_without_a_beat(robot: Heard, beats: Ring, refusals: Ring) -> None:
-    beats.samples.append(sample(Beat(1, 5.0)))
+    beats.samples.append(sample(Beat(1, 5.0, 0.0)))
     refusals.samples.append(sample(Refusals([], "", 3)))
     robot.listen_for_refusals()
     assert (robot.refusals, robot.beat) == (Refusals([], "", 3), None)
@@ -89,10 +89,10 @@ def test_what_a_robot_says_of_itself_stays_known(robot: Heard, vehicles: Ring) -
 def test_it_waits_until_the_first_beat_and_the_vehicle(
     robot: Heard, beats: Ring, vehicles: Ring, clock: Clock, naps: list[float]
 ) -> None:
-    beats.samples.append(sample(Beat(1, 5.0)))
+    beats.samples.append(sample(Beat(1, 5.0, 0.0)))
     vehicles.samples.append(sample(CAR))
     assert robot.wait()
-    assert robot.beat == Beat(1, 5.0)
+    assert robot.beat == Beat(1, 5.0, 0.0)
     assert naps == []
 
 

@@ -208,10 +208,10 @@ def test_a_handlers_command_echoes_the_beat_heard_before_it_began(node: Node, se
     """What a slow handler decides must not pass for newer than what it saw."""
     publisher = node.publisher("cmd_vel", Twist)
     beats = session.rings["robot/archangel/beat"].samples
-    beats.append(sample(Beat(1, 5.0)))
+    beats.append(sample(Beat(1, 5.0, 0.0)))
 
     def handle() -> None:
-        beats.append(sample(Beat(1, 6.0)))
+        beats.append(sample(Beat(1, 6.0, 0.0)))
         publisher.publish(Twist.planar(0.5))
         node.stop()
 

@@ -57,7 +57,7 @@ class Operator:
         self.heard.listen()
 
     def beat(self, time: float, epoch: int = 1) -> None:
-        self.beats.samples.append(sample(Beat(epoch, time)))
+        self.beats.samples.append(sample(Beat(epoch, time, 0.0)))
 
     @property
     def proof(self) -> Proof | None:
@@ -90,7 +90,7 @@ def test_each_type_a_topic_takes_goes_out_under_its_own_name(operator: Operator)
     assert [put.encoding.rpartition("/")[2] for put in operator.zenoh.puts] == ["Twist", "Pwm"]
 
 
-@pytest.mark.parametrize("message", [String("x"), Beat(1, 2.0), Twist, None])
+@pytest.mark.parametrize("message", [String("x"), Beat(1, 2.0, 0.0), Twist, None])
 def test_another_type_is_refused_by_name(operator: Operator, message: Message) -> None:
     with pytest.raises(
         MessageError,

@@ -33,7 +33,7 @@ class Robot:
         age: float = 0.0,
     ) -> Refusal | None:
         """Say a command that was `age` s on its way, from the robot's beat back to the robot."""
-        prover, beat = self.provers[sender], Beat(self.epoch, self.now - age)
+        prover, beat = self.provers[sender], Beat(self.epoch, self.now - age, self.drive.gate.floor)
         if act:
             prover.act(beat)
         moving = command not in (REST, Pwm(375, 370))

@@ -10,7 +10,7 @@ from zteleop.control.drive import DriveSettings, Step
 from zteleop.control.gate import Refusal
 from zteleop.control.mixer import Differential
 from zteleop.control.mux import Source
-from zteleop.control.proof import Prover
+from zteleop.control.proof import LAPSE, Prover
 from zteleop.control.report import status
 from zteleop.control.servo import Servo
 from zteleop.messages import Pwm, Twist
@@ -108,7 +108,7 @@ def test_a_sender_without_proof_is_refused_unless_trusted_by_arrival() -> None:
     robot = Robot(DriveSettings(sources={"nav": Source(10, silence=0.5, trust="arrival", max_speed=0.3)}))
     assert robot.drive.receive("keyboard", FORWARD, None, robot.now) is Refusal.UNPROVEN
     assert robot.drive.receive("nav", FORWARD, None, robot.now) is Refusal.NOT_FROM_NEUTRAL
-    robot.wait(0.6)
+    robot.wait(LAPSE + 0.1)
     for _ in range(20):
         assert robot.drive.receive("nav", FORWARD, None, robot.now) is None
         step = robot.wait(0.06)
@@ -281,7 +281,7 @@ def test_the_reason_of_a_refusal_is_told_for_a_second() -> None:
 
 def test_a_foreign_sender_does_not_drive_on_when_the_robot_was_stopped_for_a_while() -> None:
     robot = Robot(DriveSettings(sources={"nav": Source(10, silence=0.5, trust="arrival")}))
-    robot.wait(0.6)
+    robot.wait(LAPSE + 0.1)
     assert robot.drive.receive("nav", FORWARD, None, robot.now) is None
     robot.now += 3.0
     robot.drive.restart(2, robot.now)

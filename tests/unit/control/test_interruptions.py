@@ -261,7 +261,7 @@ def test_whoever_had_let_go_does_not_drive_on_under_another_actuator(robot: Robo
     robot.say(REST)
     robot.wait(STEP)
     take_over(robot, 0.5)
-    robot.provers["a"].prove(Beat(robot.epoch, robot.now), True, robot.now)  # its last claim, once more
+    robot.provers["a"].prove(Beat(robot.epoch, robot.now, 0.0), True, robot.now)  # its last claim, once more
     assert stand(robot.drive, 100.0).source == NOBODY
 
 

@@ -8,7 +8,7 @@ from zteleop.control.drive import Drive, DriveSettings, Step
 from zteleop.control.gate import SENDERS, Refusal
 from zteleop.control.judge import GRACE, LOOKS, Judge
 from zteleop.control.mux import Source
-from zteleop.control.proof import Proof, Prover
+from zteleop.control.proof import LAPSE, Proof, Prover
 from zteleop.control.standing import Standing
 from zteleop.messages import Beat, Pwm, Stop, Twist
 
@@ -34,7 +34,7 @@ class Watched(Robot):
         self.why: str | None = None
 
     def say(self, command: Twist | Pwm, sender="a", source="keyboard", act=True, age=0.0) -> Refusal | None:
-        prover, beat = self.provers[sender], Beat(self.epoch, self.now - age)
+        prover, beat = self.provers[sender], Beat(self.epoch, self.now - age, self.drive.gate.floor)
         if act:
             prover.act(beat)
         return self.tell(source, command, prover.prove(beat, command != REST, self.now))
@@ -266,7 +266,7 @@ def test_a_program_that_publishes_seldom_is_let_drive(robot: Watched, pause: flo
     """However the link's deadline falls between its claim's beginning and its arrival."""
     for late in (0.0, 0.1, 0.2):
         robot.wait(pause - 0.3)
-        prover, beat = robot.provers["a"], Beat(1, robot.now)
+        prover, beat = robot.provers["a"], Beat(1, robot.now, 0.0)
         prover.act(beat)
         proof = prover.prove(beat, True, robot.now)
         robot.wait(late)
@@ -291,7 +291,7 @@ def test_a_late_command_that_the_drive_refused_makes_no_later_one_suspect(robot:
 
 
 def test_a_foreign_sender_trusted_by_arrival_may_drive_until_its_silence(robot: Watched) -> None:
-    robot.wait(0.6)
+    robot.wait(LAPSE + 0.1)
     for _ in range(30):
         assert robot.tell("nav", FORWARD, None) is None
         robot.wait(0.1)
@@ -376,8 +376,8 @@ def test_a_judge_that_looks_late_does_not_blame_who_began_after_the_release() ->
     drive.stop(Stop(engaged=False, id=5, by="ann", why=""), 2.01)
     prover, waiting = Prover(1), []
     for now in (2.06 + 0.02 * number for number in range(60)):
-        prover.act(Beat(1, now))
-        waiting.append(prover.prove(Beat(1, now), True, now))
+        prover.act(Beat(1, now, 0.0))
+        waiting.append(prover.prove(Beat(1, now, 0.0), True, now))
         drive.receive("keyboard", Pwm(390, 400), waiting[-1], now)
         pulses = drive.step(now).pulse_us
         if now >= 2.38:

@@ -1,9 +1,11 @@
-from zteleop.control.proof import NEVER, Prover
+import pytest
+
+from zteleop.control.proof import LAPSE, NEVER, Prover
 from zteleop.messages import Beat
 
 
-def beat(time: float, epoch: int = 1) -> Beat:
-    return Beat(epoch, time)
+def beat(time: float, epoch: int = 1, floor: float = 0.0) -> Beat:
+    return Beat(epoch, time, floor)
 
 
 def test_a_proof_echoes_the_newest_beat_and_counts() -> None:
@@ -51,6 +53,32 @@ def test_a_new_epoch_forgets_act_and_beginning() -> None:
     assert (proof.epoch, proof.acted, proof.began) == (2, NEVER, NEVER)
     prover.act(beat(3.1, epoch=2))
     assert prover.prove(beat(3.1, epoch=2), True, 0.2).began == NEVER
+
+
+@pytest.mark.parametrize("pause", [0.6, 1.0, LAPSE])
+def test_however_slow_a_stream_does_not_begin_anew_after_a_release(pause: float) -> None:
+    prover = Prover(7, silence=0.5)
+    for time in (10.0, 10.0 + pause, 10.0 + 2 * pause):
+        prover.act(beat(time, floor=10.5))
+        proof = prover.prove(beat(time, floor=10.5), True, time)
+    assert proof.began == 10.0
+
+
+def test_however_slow_a_stream_does_not_begin_anew_after_a_start() -> None:
+    prover = Prover(7, silence=0.5)
+    for time, epoch in ((10.0, 1), (11.0, 1), (12.0, 2), (13.0, 2)):
+        prover.act(beat(time, epoch))
+        proof = prover.prove(beat(time, epoch), True, time)
+    assert proof.began == NEVER
+
+
+@pytest.mark.parametrize("pause", [LAPSE + 0.1, 60.0])
+def test_after_a_release_a_pause_that_nobody_takes_for_a_stream_begins_anew(pause: float) -> None:
+    prover = Prover(7, silence=0.5)
+    for time in (10.0, 10.0 + pause):
+        prover.act(beat(time, floor=10.05))
+        proof = prover.prove(beat(time, floor=10.05), True, time)
+    assert proof.began == 10.0 + pause
 
 
 def test_a_claim_that_is_let_go_begins_anew() -> None:

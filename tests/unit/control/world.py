@@ -164,21 +164,25 @@ class Sender:
         self.command: Twist | Pwm | None = None
         self.acts = True
         self.frozen = False
+        self.period = 0.045
         self.said = NEVER
         self._acted = self._began = NEVER
+        self._epoch = -1
         self._moved, self._then = False, NEVER
 
-    def hear(self, epoch: int, time: float) -> None:
+    def hear(self, epoch: int, time: float, floor: float) -> None:
         if self.hears and not (self.beat and self.beat.epoch == epoch and self.beat.time >= time):
-            self.beat = Beat(epoch, time)
+            self.beat = Beat(epoch, time, floor)
 
     def say(self, command: Twist | Pwm, moving: bool, act: bool, now: float) -> Told:
         if act:
             self.prover.act(self.beat)
             self._acted = now
         then = now + self.clock
-        if moving and (not self._moved or then - self._then > self.silence):
+        is_over = self.beat is None or self.beat.epoch != self._epoch or self._began <= self.beat.floor
+        if moving and (not self._moved or then - self._then > max(self.silence, LINK_LOSS * is_over)):
             self._began = self._acted
+            self._epoch = self.beat.epoch if self.beat else -1
         self._moved, self._then = moving, then
         self.number += 1
         proof = self.prover.prove(self.beat, moving, then)
@@ -342,7 +346,8 @@ class World:
     def _found(self, told: Told) -> Told:
         """Return a command of a foreign sender as what its arrival makes it."""
         then, moved, began = self._foreign
-        begins = told.moving and (not moved or self.now - then > 0.5)
+        pause = LINK_LOSS if began <= self.truth.floor else 0.5
+        begins = told.moving and (not moved or self.now - then > pause)
         began = self.now if begins else began
         if not begins or self.now - self.truth.interrupted > MAX_AGE:  # what may be old begins nothing
             self._foreign = (self.now, told.moving, began)
@@ -366,12 +371,13 @@ class World:
     def _sender(self, source: str) -> Sender:
         self._identity += 1
         sender = Sender(source, self._identity, self.random.uniform(-1e6, 1e6))
-        sender.hear(self.epoch, self.now)
+        sender.hear(self.epoch, self.now, self.truth.floor)
         return sender
 
     def say(self, sender: Sender, command: Twist | Pwm | None, act: bool) -> None:
         """Send a command, or a neutral one; how it travels is the link's affair."""
-        sender.hear(self.epoch, max(self.now - self.random.random() * 0.06, self.truth.since))
+        heard = max(self.now - self.random.random() * 0.06, self.truth.since)
+        sender.hear(self.epoch, heard, min(self.truth.floor, heard))
         sender.said = self.now
         moving = command is not None
         told = sender.say(command or self.random.choice(RESTS), moving, act, self.now)
@@ -392,10 +398,10 @@ class World:
         return self.step()
 
     def _carry_on(self, seconds: float) -> None:
-        """Let time pass, and let everybody who holds something say so 20 times a second."""
+        """Let time pass, and let everybody who holds something say so, most of them 20 times a second."""
         self.pass_by(seconds)
         for sender in self.senders:
-            if sender.command and not sender.frozen and self.now - sender.said >= 0.045:
+            if sender.command and not sender.frozen and self.now - sender.said >= sender.period:
                 self.say(sender, sender.command, sender.acts)
 
     def _pause(self, seconds: float) -> None:
@@ -438,6 +444,11 @@ class World:
     def _freeze(self, who: int) -> None:
         """Say nothing more, or go on where it was left."""
         self.senders[who].frozen = not self.senders[who].frozen
+
+    def _slow(self, who: int) -> None:
+        """Say what is held less often than a program may pause; or as often as everybody."""
+        sender = self.senders[who]
+        sender.period = 0.045 if sender.period > 0.5 else 0.8
 
     def _leave(self, who: int) -> None:
         """Its process is gone; another may come in its place."""
@@ -562,6 +573,7 @@ ACTS: dict[str, tuple[float, tuple[object, ...]]] = {
     "let_go": (9, WHO),
     "act": (3, WHO),
     "freeze": (3, WHO),
+    "slow": (1, WHO),
     "leave": (1, WHO),
     "cut": (2, WHO),
     "deafen": (2, WHO),
@@ -606,6 +618,7 @@ def _drive_well(world: World) -> int:
     who = world.random.choice(WHO)
     sender = world.senders[who]
     sender.speaks, sender.hears, sender.delay, sender.acts = True, True, 0.0, True
+    sender.period = 0.045
     freed = (("release", "right"), ("fault", False), ("arm", False), ("deaf", False), ("carry_on", 0.06))
     for name, argument in freed:
         world.do(name, argument)

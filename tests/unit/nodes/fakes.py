@@ -146,7 +146,7 @@ class Node:
 
     def hear(self, now: float, epoch: int = 1, vehicle: Vehicle | None = None) -> None:
         """Hear a beat of the robot, and perhaps what it says of itself."""
-        self.robot_heard.beat, self.robot_heard.at = Beat(epoch, now), now
+        self.robot_heard.beat, self.robot_heard.at = Beat(epoch, now, 0.0), now
         self.robot_heard.vehicle = vehicle or self.robot_heard.vehicle
 
 

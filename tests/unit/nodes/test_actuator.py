@@ -257,8 +257,8 @@ def test_while_the_esc_arms_it_is_starting(node: Node, clock: Clock) -> None:
 
 def test_one_in_anothers_place_goes_on_with_the_next_act_and_arms_nothing(node: Node, clock: Clock) -> None:
     now, prover = clock.time, Prover(7)
-    prover.act(Beat(5, now - 3.0))
-    prover.prove(Beat(5, now - 3.0), True, 0.0)
+    prover.act(Beat(5, now - 3.0, 0.0))
+    prover.prove(Beat(5, now - 3.0, 0.0), True, 0.0)
     standing = Standing(
         5, now - 9.0, now - 8.0, now - 8.0, list(SOURCES).index("keyboard"), 7, now - 3.0, now - 1.0
     )
@@ -502,7 +502,7 @@ def test_after_a_long_pause_of_its_own_it_begins_a_new_epoch(robot: Robot) -> No
     robot.say(FORWARD)
     before = robot.beat.epoch
     robot.clock.pass_by(0.55)
-    robot.say(FORWARD, proof=robot.prover.prove(Beat(before, robot.clock.time), True, robot.clock.time))
+    robot.say(FORWARD, proof=robot.prover.prove(Beat(before, robot.clock.time, 0.0), True, robot.clock.time))
     assert robot.beat.epoch != before
     assert robot.node.warnings[0] == "this process stood still for 0.55 s; whoever drove must let go first"
     robot.tick()
@@ -581,7 +581,7 @@ def test_whoever_is_refused_for_a_while_is_told_and_nobody_else(robot: Robot) ->
     assert (refused.sender, refused.source) == ("ff", "keyboard")
     assert refused.why == "it was made before the robot's last start"
     assert refused.since > 0.5
-    robot.tick(60)
+    robot.tick(110)
     robot.node.timers[DESCRIBE_EVERY]()
     assert told.take() == []
 

@@ -14,7 +14,7 @@ from zteleop.nodes import blackbox_file
 from zteleop.nodes.blackbox_file import KEPT, Header, Reason, read, utc, write
 
 PROOF = Proof(1, 2, 3, 4.0, 5.0, 6.0)
-BEAT = Raw(7.123456, "beat", codec.encoding_of(Beat), codec.encode(Beat(3, 7.0)), b"", False)
+BEAT = Raw(7.123456, "beat", codec.encoding_of(Beat), codec.encode(Beat(3, 7.0, 0.0)), b"", False)
 
 
 def header(reason: str = "stop", second: int = 0) -> Header:
@@ -43,7 +43,7 @@ def test_a_message_is_kept_as_its_values() -> None:
         "at": 7.1235,
         "key": "robot/archangel/beat",
         "encoding": "application/json;zteleop_msgs/msg/Beat",
-        "payload": {"epoch": 3, "time": 7.0},
+        "payload": {"epoch": 3, "time": 7.0, "floor": 0.0},
     }
 
 
@@ -79,7 +79,7 @@ def test_what_is_written_is_read(tmp_path: Path) -> None:
     recording = read(path)
     assert recording.header == header()
     assert [kept.at for kept in recording.lines] == [7.1235, 8.0]
-    assert recording.lines[0].payload == {"epoch": 3, "time": 7.0}
+    assert recording.lines[0].payload == {"epoch": 3, "time": 7.0, "floor": 0.0}
     assert not recording.trouble
     assert os.listdir(path.parent) == [path.name]
 

@@ -31,7 +31,7 @@ class Bench:
 
     def push(self) -> None:
         """Claim the robot, as somebody who begins now and holds on."""
-        beat = Beat(1, self.now)
+        beat = Beat(1, self.now, 0.0)
         self.prover.act(beat)
         self.drive.receive("keyboard", Pwm(390, 370), self.prover.prove(beat, True, self.now), self.now)
 

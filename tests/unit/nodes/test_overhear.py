@@ -33,12 +33,12 @@ class Room:
         )
 
     def push(self, topic: str = "pwm/keyboard") -> None:
-        beat = Beat(1, self.now)
+        beat = Beat(1, self.now, 0.0)
         self.prover.act(beat)
         self.hear(topic, PUSH, self.prover.prove(beat, True, self.now))
 
     def beat(self, epoch: int) -> None:
-        self.hear("beat", Beat(epoch, self.now))
+        self.hear("beat", Beat(epoch, self.now, 0.0))
 
     def listen(self, seconds: float = PERIOD) -> Stop | None:
         """Tick on; return the stop that was ignored, if any."""

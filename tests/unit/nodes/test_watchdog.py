@@ -121,7 +121,7 @@ class Kennel:
                 self.hear_actuator()
             if self.child.alive and not self.child.frozen and self.child.beats:
                 self.node.inboxes["beat"].waiting.clear()  # its ring holds one
-                self.hear("beat", Beat(EPOCH, self.clock.time))
+                self.hear("beat", Beat(EPOCH, self.clock.time, 0.0))
             if self.child.alive and self.child.moves:
                 self.hand.pulses = dict(MOVING)
             self.node.live(self.clock, PERIOD)
@@ -134,7 +134,7 @@ class Kennel:
         """Hear a message; a command is one that moves, by somebody who acts."""
         proof = None
         if topic.startswith("pwm"):
-            beat = Beat(EPOCH, self.clock.time)
+            beat = Beat(EPOCH, self.clock.time, 0.0)
             self.prover.act(beat)
             proof = self.prover.prove(beat, True, self.clock.time)
         key = f"robot/archangel/{topic}"
