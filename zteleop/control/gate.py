@@ -35,7 +35,9 @@ class Refusal(StrEnum):
     REPLAYED = "it repeats an older command"
     STALE = "it is too old, or its sender no longer hears the robot"
     OPERATOR_IDLE = "its operator has not acted for too long"
-    NOT_FROM_NEUTRAL = "it was moving before the robot started or the link came back; let go first, or pause"
+    NOT_FROM_NEUTRAL = (
+        "it was moving before the robot started or the link came back; let go first, or pause for 2 s"
+    )
     INTERRUPTED = "it was said before the robot went on; act once more"
     HELD = "another sender drives this source, or did when this one began; let go, and begin anew"
     AT_REST = "the robot is kept at rest; let go, and begin anew when it is free"
