@@ -3,7 +3,6 @@
 import os
 import signal
 import subprocess
-import time
 from pathlib import Path
 
 import pytest
@@ -103,7 +102,7 @@ def test_a_chip_that_browns_out_is_repaired_through_neutral(rig: Rig) -> None:
         assert {ticks for ticks in watch.seen if None not in ticks} == {NEUTRAL}
         bench.watchdog.says("the chip is at fault")
         bench.watchdog.says("the chip is back, at neutral")
-    time.sleep(0.6)  # let go: the publisher's own silence
+    bench.pwm.let_go()
     with bench.driven():
         pass
     assert not bench.stop_file.exists()
