@@ -276,13 +276,15 @@ def two_lost_writes_are_made_good_and_a_third_is_an_error(bench: Bench) -> None:
 
 
 @case
-def a_lost_read_is_an_error_in_words(bench: Bench) -> None:
+def two_lost_reads_are_made_good_and_a_third_is_an_error_in_words(bench: Bench) -> None:
     driver = bench.started()
     for read in (driver.check, lambda: driver.read([0])):
-        bench.faults.nack(1)
+        bench.faults.nack(2)
+        read()
+        bench.faults.nack(3)
         with fails(f"^nobody answers at 0x40 on {bench.bus}; check power and wiring"):
             read()
-    bench.faults.nack(1)
+    bench.faults.nack(3)
     with fails("it did when asked again: check for a loose wire"):
         driver.start(NEUTRAL)
 
@@ -299,6 +301,17 @@ def a_bus_that_hangs_is_an_error_in_words_within_its_bound(bench: Bench) -> None
     bench.faults.hang(2, 1)
     driver.write(DRIVEN)
     assert bench.ticks(0, 1) == DRIVEN_TICKS
+
+
+@case
+def a_chip_that_answers_every_second_time_comes_up_and_is_driven(bench: Bench) -> None:
+    for every in (2, 3):
+        bench.faults.every(every)
+        driver = bench.started()
+        for pulse_us, ticks in ((DRIVEN, DRIVEN_TICKS), (NEUTRAL, NEUTRAL_TICKS)) * 5:
+            driver.write(pulse_us)
+            driver.check()
+            assert bench.ticks(0, 1) == ticks
 
 
 @case

@@ -143,6 +143,8 @@ def draw_fault(random: Random) -> Callable[[Faults], object]:
         1: lambda faults: faults.tear(2, number),
         2: lambda faults: faults.hang(1, 0),
         3: lambda faults: faults.brown_out(),
+        4: lambda faults: faults.every(number % 4),
+        5: lambda faults: faults.at_random(10 * (number % 6)),
     }
     return puts.get(kind, lambda faults: None)
 

@@ -34,7 +34,8 @@ enum { DESCRIPTORS = 1024 };
 
 struct faults { // little-endian, as every machine this is built for
     uint32_t nack, tear, hang;
-    uint16_t after_bytes, ms;
+    uint16_t after_bytes, ms, every, percent;
+    uint32_t state;
 };
 
 struct chip {
@@ -169,6 +170,14 @@ static struct fault count_down(struct faults *faults, unsigned written)
         return (struct fault){EREMOTEIO, 0, 0};
     if (faults->tear && written > faults->after_bytes && faults->tear--)
         return (struct fault){EREMOTEIO, faults->after_bytes, 0};
+    if (faults->every) {
+        faults->state = (faults->state + 1) % faults->every;
+        return faults->state ? NO_FAULT : (struct fault){EREMOTEIO, 0, 0};
+    }
+    if (faults->percent) {
+        faults->state = faults->state * 1664525u + 1013904223u;
+        return (faults->state >> 16) % 100 < faults->percent ? (struct fault){EREMOTEIO, 0, 0} : NO_FAULT;
+    }
     return NO_FAULT;
 }
 

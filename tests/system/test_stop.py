@@ -206,3 +206,16 @@ def test_a_robot_that_nobody_reaches_is_an_alarm_with_what_to_do(rig: Rig) -> No
     keyboard.type("q")
     assert keyboard.ends() == 1
     assert b"zteleop keyboard: bench has not acknowledged the stop" in keyboard.output
+
+
+@pytest.mark.parametrize("typo", ['robt = "michael"', "robot =", '[bus]\nmode = "pear"', "[[[\0"])
+def test_a_stop_goes_out_whatever_the_config_says(rig: Rig, driving: None, typo: str) -> None:
+    file = rig.folder / "config.toml"
+    right = file.read_text()
+    file.write_text(f"{typo}\n{right}")
+    done = rig.result("stop", *rig.bus_options())
+    assert (done.returncode, done.stdout.partition(" (")[0]) == (0, "bench is stopped"), done.stderr
+    assert done.stderr.startswith("zteleop: warning: config.toml: ")
+    until(lambda: rig.ticks == NEUTRAL, "neutral")
+    for verb in ("why", "neutral"):
+        assert "warning: config.toml: " in rig.result(verb, "--robot", "bench").stderr

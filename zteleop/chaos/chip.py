@@ -1,12 +1,14 @@
 """A chip that does not answer, forgets, is written by somebody else, or is gone."""
 
 import os
+import signal
 import time
 from collections.abc import Callable
 
 from zteleop.chaos.bench import Bench
-from zteleop.chaos.fault import Act, Fault
+from zteleop.chaos.fault import Act, Fault, Operator
 from zteleop.chaos.people import press
+from zteleop.chaos.processes import actuator, operator, together
 from zteleop.drivers import open_driver
 from zteleop.drivers.faults import Faults
 
@@ -24,12 +26,16 @@ def once(put: Callable[[Faults], object]) -> Act:
     return strike
 
 
-def now_and_then(bench: Bench) -> None:
-    """Let about every third transfer fail, for a while."""
-    with bench.faults() as faults:
-        for _ in range(100):
-            faults.nack(1)
-            time.sleep(0.025)
+def for_long(put: Callable[[Faults], object]) -> Act:
+    """Let transfers fail for some two seconds, long enough for whatever looks at the chip to meet it."""
+
+    def strike(bench: Bench) -> None:
+        with bench.faults() as faults:
+            put(faults)
+            time.sleep(2 * OUTAGE)
+            faults.clear()
+
+    return strike
 
 
 def outage(put: Callable[[Faults], object]) -> Act:
@@ -62,9 +68,27 @@ def remove_file(bench: Bench) -> None:
     os.unlink(bench.chip)
 
 
+SOON = 0.2
+"""s until neutral is on a chip that takes only some of its transfers; at random: one in two fails"""
+BAD: dict[str, Callable[[Faults], object]] = {
+    "bus fails 1 in 2": lambda faults: faults.every(2),
+    "bus fails 1 in 3": lambda faults: faults.every(3),
+    "bus fails at random": lambda faults: faults.at_random(50),
+}
+ENDS: tuple[tuple[str, Act, Operator], ...] = (
+    ("operator killed", operator(signal.SIGKILL), "program"),
+    ("actuator killed", actuator(signal.SIGKILL), "here"),
+    ("stop pressed", press, "here"),
+)
 FAULTS = (
     Fault("chip does not answer once", once(lambda f: f.nack(1)), None, "drives", simulated=True),
-    Fault("chip answers two times of three", now_and_then, None, "drives", simulated=True),
+    Fault("chip answers two times of three", for_long(lambda f: f.every(3)), None, "drives", simulated=True),
+    Fault("chip answers every second time", for_long(lambda f: f.every(2)), None, "drives", simulated=True),
+    *(
+        Fault(f"{what}, {how}", together(once(put), act), SOON, operator=who, simulated=True)
+        for how, put in BAD.items()
+        for what, act, who in ENDS
+    ),
     Fault("chip back after 1 s", outage(lambda f: f.nack(FOREVER)), 0.2, simulated=True),
     Fault("bus hangs for 1 s", outage(lambda f: f.hang(FOREVER, 20)), 0.3, simulated=True),
     Fault("a write is torn", once(lambda f: f.tear(1, 3)), None, "drives", simulated=True),

@@ -7,6 +7,7 @@ if TYPE_CHECKING:
     from zteleop.chaos.bench import Bench
 
 Act = Callable[["Bench"], object]
+Operator = Literal["here", "far", "program", "keyboard"]
 
 
 class Fault(NamedTuple):
@@ -22,7 +23,7 @@ class Fault(NamedTuple):
 
     `either` is an interruption: how long it takes on this machine decides.
     """
-    operator: Literal["here", "far", "program", "keyboard"] = "here"
+    operator: Operator = "here"
     """Who drives: this process (far: behind a link), a program of its own, or keys in a terminal."""
     before: Act = lambda _: None
     """Done before somebody drives."""

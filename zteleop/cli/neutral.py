@@ -19,14 +19,20 @@ def bring_to_rest(settings: Config, name: str, robot: str) -> Calibration:
     """Write neutral to the chip of that driver, whoever else writes to it; return what neutral is."""
     hand = open_driver(name, settings.driver_settings(name, robot), exclusive=False)
     calibration = Calibration(settings.drive.servos, hand.tick_us)
-    hand.start(calibration.neutral_us)
-    hand.close()
+    try:
+        hand.start(calibration.neutral_us)
+    except DeviceError:
+        # Bringing it up takes a dozen transfers, of which any may fail; this one counts.
+        hand.write(calibration.neutral_us)
+        raise
+    finally:
+        hand.close()
     return calibration
 
 
 def run(arguments: argparse.Namespace) -> None:
     """Write neutral first and ask afterwards: it is never wrong."""
-    settings = config.load(arguments.config)
+    settings = options.salvaged(arguments)
     robot = robot_name(arguments.robot or settings.robot or config.own_name())
     name = arguments.driver or settings.driver
     chip = settings.driver_settings(name, robot)

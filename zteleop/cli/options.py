@@ -9,9 +9,11 @@ import zenoh
 
 from zteleop import config
 from zteleop.bus import presence
+from zteleop.bus.escape import printable
 from zteleop.bus.names import resolve, robot_name
 from zteleop.bus.node import Node
 from zteleop.bus.session import open_session
+from zteleop.cli.salvage import salvage
 from zteleop.config import Config
 from zteleop.errors import ConfigError
 
@@ -49,7 +51,24 @@ def add_config(parser: argparse.ArgumentParser) -> None:
 
 def load(options: argparse.Namespace) -> Config:
     """Return the settings of the file meant, with what was typed on top."""
-    settings = config.load(options.config)
+    return _with_typed(options, config.load(options.config))
+
+
+def load_anyhow(options: argparse.Namespace) -> Config:
+    """Do the same, and where the file is not right go on with what can be read of it, and say so."""
+    return _with_typed(options, salvaged(options))
+
+
+def salvaged(options: argparse.Namespace) -> Config:
+    """Return the settings of the file meant, as far as they can be read; a stop must not fail for a typo."""
+    settings, wrong = salvage(options.config)
+    if wrong:
+        words = f"zteleop: warning: {wrong}; goes on with the rest of that file, and what is built in"
+        print(printable(words), file=sys.stderr)
+    return settings
+
+
+def _with_typed(options: argparse.Namespace, settings: Config) -> Config:
     typed = {
         "mode": options.mode,
         "connect": options.connect,

@@ -17,7 +17,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> None:
-    with options.join("stop", options.load(arguments)) as node:
+    with options.join("stop", options.load_anyhow(arguments)) as node:
         print(printable(release(node) if arguments.release else stop(node, arguments.why)))
 
 

@@ -20,7 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> None:
     """Print a line a second, and one at each change."""
-    with options.join("watch", options.load(arguments)) as node:
+    with options.join("watch", options.load_anyhow(arguments)) as node:
         shown: tuple[object, ...] = ()
         heard_at = shown_at = clock.now()
 

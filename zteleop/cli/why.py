@@ -15,7 +15,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> None:
-    with options.join("why", options.load(arguments)) as node:
+    with options.join("why", options.load_anyhow(arguments)) as node:
         print(explain(node))
 
 

@@ -1,6 +1,7 @@
 """What can go wrong on a simulated bus, put in through the chip's file by whoever can write it.
 
-Three counters and two figures behind the registers, little-endian; each transfer counts one of them down.
+Behind the registers, little-endian: counters, of which each transfer counts one down, and then how often
+a transfer fails all the time.
 """
 
 import errno
@@ -25,10 +26,14 @@ class Area(NamedTuple):
     hang: int = 0
     after_bytes: int = 0
     ms: int = 0
+    every: int = 0
+    percent: int = 0
+    state: int = 0
+    """how many transfers `every` has seen, or the last number of `percent`'s generator"""
 
 
-LAYOUT = Struct("<IIIHH")
-LIMITS = Area(2**32 - 1, 2**32 - 1, 2**32 - 1, 2**16 - 1, 2**16 - 1)
+LAYOUT = Struct("<IIIHHHHI")
+LIMITS = Area(2**32 - 1, 2**32 - 1, 2**32 - 1, 2**16 - 1, 2**16 - 1, 2**16 - 1, 100, 2**32 - 1)
 
 
 class Fault(NamedTuple):
@@ -45,7 +50,8 @@ class Fault(NamedTuple):
 class Faults:
     """Puts faults into the chip of a file, also while drivers of other processes use it.
 
-    Transfers to the chip's own address meet them, one each: a hang before a nack before a tear.
+    Transfers to the chip's own address meet them, one each: a hang before a nack before a tear before
+    what fails now and then.
     """
 
     def __init__(self, path: str) -> None:
@@ -66,6 +72,14 @@ class Faults:
     def hang(self, transfers: int, ms: int) -> None:
         """Let that many reads and writes block for so many milliseconds and then fail (ETIMEDOUT)."""
         self._put(hang=transfers, ms=ms)
+
+    def every(self, nth: int) -> None:
+        """Let every n-th read or write find nobody at the address, until it is 0."""
+        self._put(every=nth, percent=0, state=0)
+
+    def at_random(self, percent: int) -> None:
+        """Let that many of a hundred reads and writes find nobody at the address, until it is 0."""
+        self._put(every=0, percent=percent, state=1)
 
     def brown_out(self) -> None:
         """Let the supply dip: the registers are those of power-up, and writes go on to succeed."""
@@ -127,6 +141,13 @@ def _meet(area: Area, length: int) -> tuple[Area, Fault | None]:
         return area._replace(nack=area.nack - 1), Fault(EREMOTEIO)
     if area.tear and length > area.after_bytes:
         return area._replace(tear=area.tear - 1), Fault(EREMOTEIO, area.after_bytes)
+    if area.every:
+        seen = (area.state + 1) % area.every
+        return area._replace(state=seen), None if seen else Fault(EREMOTEIO)
+    if area.percent:
+        number = (area.state * 1664525 + 1013904223) % 2**32
+        fails = (number >> 16) % 100 < area.percent
+        return area._replace(state=number), Fault(EREMOTEIO) if fails else None
     return area, None
 
 

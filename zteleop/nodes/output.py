@@ -1,7 +1,9 @@
 """The chip, never trusted: what fails is written again, what was forgotten is noticed and repaired."""
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 
+from zteleop.bus import clock
 from zteleop.control.drive import Drive
 from zteleop.drivers import PulseDriver
 from zteleop.errors import DeviceError
@@ -9,6 +11,8 @@ from zteleop.errors import DeviceError
 FAILED_STEPS = 3
 """in a row that make a fault; each has written three times already"""
 REPAIR_EVERY = 0.1
+SLOW = 0.05
+"""s for neutral to fail or go out, beyond which this step asks nothing more of the bus"""
 FAULT, ARMING = "chip", "arming"
 
 
@@ -50,8 +54,8 @@ class Output:
             self._break(str(error), now)
 
     def tend(self, now: float) -> None:
-        """Repair the chip through neutral, and end the arming pause, when it is time."""
-        if self._broken and now >= self._repair_at:
+        """Write neutral to a chip at fault, repair it, and end the arming pause, when it is time."""
+        if self._broken and self._write_neutral() and now >= self._repair_at:
             self._repair(now)
         if not self._broken and now >= self._armed_at:
             self._drive.free(ARMING, now)
@@ -68,6 +72,16 @@ class Output:
             self._driver.check()
         except DeviceError:  # a single disturbance on the wires is no fault
             self._driver.check()
+
+    def _write_neutral(self) -> bool:
+        """Write neutral before anything else is thought about; return whether the bus has time for more.
+
+        Bringing a chip up takes a dozen transfers. Where some of them fail, this one may not.
+        """
+        began = clock.now()
+        with suppress(DeviceError):
+            self._driver.write(self._neutral_us)
+        return clock.now() - began <= SLOW
 
     def _break(self, words: str, now: float) -> None:
         self._broken, self._repair_at = True, now

@@ -4,6 +4,7 @@ import secrets
 import signal
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from types import FrameType
 
 from zteleop.bus import clock, signals
@@ -28,6 +29,10 @@ SILENCE, SILENCE_AT_START = 0.25, 5.0
 """s without a step of the actuator until it is killed."""
 LATE = 0.2
 """s between two ticks, after which the watchdog knows that it was stopped itself."""
+FORGIVE_EVERY = 2.0
+"""s; a watchdog that is late all the time would otherwise hear no silence at all"""
+YIELD = 5
+"""times as long as a look took, until the next one"""
 FAREWELL = 0.25
 REST_PATIENCE = 2.0
 
@@ -53,10 +58,11 @@ class Watchdog:
         self._judge = Judge(settings, hand.tick_us, clock.now())
         self._ears = Overhearing(node, settings, self._judge, stop_file)
         self._statuses = node.publisher("watchdog", WatchdogStatus)
-        self._ticked = self._woke = clock.now()
+        self._ticked, self._woke = clock.now(), float("-inf")
         self._restart_at: float | None = None
         self._standing: Standing | None = None
         """Of the actuator that is gone, where it was only late."""
+        self._look_after = clock.now()
         self._at_rest = False
         self._why = "the actuator starts"
         self._exit_code: int | None = None
@@ -113,7 +119,7 @@ class Watchdog:
     def _tick(self) -> None:
         """Take in what the bus says, and notice silence."""
         now = clock.now()
-        if now - self._ticked > LATE:
+        if now - self._ticked > LATE and now - self._woke > FORGIVE_EVERY:
             self._woke = now
         self._ticked = now
         if ignored := self._ears.listen(now):
@@ -137,13 +143,16 @@ class Watchdog:
 
     def _look(self) -> None:
         """Read the chip; what moves without a reason is stopped, and what does not obey that is killed."""
-        if self._restart_at is not None or not self._child.ready:
+        began = clock.now()
+        if self._restart_at is not None or not self._child.ready or began < self._look_after:
             return
         try:
             why = self._judge.look(self._hand.read(self._judge.neutral_us), clock.now())
         except DeviceError as error:
             self._node.log.warn(f"cannot read the chip: {error}", "read")
             return
+        finally:  # on a slow bus whoever writes comes first
+            self._look_after = began + YIELD * (clock.now() - began)
         if why and not self._judge.stopped:
             self._engage(Stop(engaged=True, id=secrets.randbits(53), by="the watchdog", why=why))
         elif why:
@@ -154,10 +163,10 @@ class Watchdog:
     def _engage(self, stop: Stop) -> None:
         self._node.log.error(f"stops the robot: {stop.why or stop.by}")
         self._ears.engage(stop, clock.now())
-        self._stop_file.keep(stop)
         if self._child.link:
             self._child.link.stop(stop)
         self._rest()
+        self._stop_file.keep(stop)  # a disk may take its time
 
     def _fell(self, why: str, patience: float, late: bool = False) -> None:
         """Make sure that the actuator is gone, bring the chip to rest, and start another.
@@ -199,17 +208,25 @@ class Watchdog:
             self._start()
 
     def _rest(self) -> None:
-        """Write neutral and read it back; without an answer cut the outputs."""
+        """Write neutral, read it back, and bring up a chip that does not hold it; else cut the outputs."""
         neutral_us = self._judge.neutral_us
+        if not self._never_stepped:  # a chip that another program left running may have another period
+            with suppress(DeviceError):  # it may be what comes next that gets through
+                self._hand.write(neutral_us)
         try:
-            self._hand.start(neutral_us)
-            self._at_rest = self._judge.at_rest(self._hand.read(neutral_us))
+            self._at_rest = self._reads_neutral()
+            if not self._at_rest:
+                self._hand.start(neutral_us)
+                self._at_rest = self._reads_neutral()
         except DeviceError as error:
             self._at_rest = False
             if not self._never_stepped:
                 self._node.log.error(f"cannot bring the chip to rest: {error}", "rest")
         if not self._at_rest:
             self._cut(True)
+
+    def _reads_neutral(self) -> bool:
+        return self._judge.at_rest(self._hand.read(self._judge.neutral_us))
 
     def _cut(self, cut: bool) -> None:
         self._is_cut = cut

@@ -19,7 +19,7 @@ Watch = Callable[..., list[str]]
 @pytest.fixture
 def node(monkeypatch: pytest.MonkeyPatch) -> Node:
     node = Node()
-    monkeypatch.setattr(watchdog.options, "load", lambda arguments: None)
+    monkeypatch.setattr(watchdog.options, "load_anyhow", lambda arguments: None)
     monkeypatch.setattr(watchdog.options, "join", lambda name, settings: nullcontext(node))
     return node
 

@@ -26,7 +26,7 @@ def test_they_lie_behind_the_registers_little_endian(path: str) -> None:
     faults.hang(4, ms=500)
     content = Path(path).read_bytes()
     assert content[:256] == POWER_UP
-    assert content[256:] == bytes([1, 0, 0, 0, 2, 0, 0, 0, 4, 0, 0, 0, 3, 0, 0xF4, 1])
+    assert content[256:] == bytes([1, 0, 0, 0, 2, 0, 0, 0, 4, 0, 0, 0, 3, 0, 0xF4, 1]) + bytes(8)
     faults.close()
 
 
@@ -39,6 +39,25 @@ def test_each_transfer_meets_one_and_counts_it_down(path: str) -> None:
         assert faults.pending() == Area(after_bytes=3, ms=7)
     nack = Fault(EREMOTEIO)
     assert met == [Fault(errno.ETIMEDOUT, ms=7), nack, nack, Fault(EREMOTEIO, after_bytes=3), None]
+
+
+def test_every_nth_transfer_fails_until_it_is_none(path: str) -> None:
+    with Faults(path) as faults:
+        faults.every(3)
+        assert [bool(take(path)) for _ in range(7)] == [False, False, True] * 2 + [False]
+        faults.every(0)
+        assert [take(path) for _ in range(7)] == [None] * 7
+
+
+@pytest.mark.parametrize(
+    ("percent", "least", "most"), [(0, 0, 0), (10, 60, 140), (50, 430, 570), (100, 1000, 1000)]
+)
+def test_as_many_of_a_hundred_transfers_fail_as_were_asked_for(
+    path: str, percent: int, least: int, most: int
+) -> None:
+    with Faults(path) as faults:
+        faults.at_random(percent)
+        assert least <= sum(bool(take(path)) for _ in range(1000)) <= most
 
 
 @pytest.mark.parametrize("length", [0, 3])
@@ -60,7 +79,7 @@ def test_leaving_the_with_takes_them_all_out(path: str) -> None:
     with Faults(path) as faults:
         faults.nack(5)
         faults.hang(5, ms=1000)
-    assert Path(path).read_bytes() == POWER_UP + bytes(16)
+    assert Path(path).read_bytes() == POWER_UP + bytes(24)
     assert bus(path).read_byte_data(0x40, 0xFE) == 0x1E
 
 

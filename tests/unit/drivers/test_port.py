@@ -1,9 +1,12 @@
 import errno
+from types import SimpleNamespace
 
 import pytest
 from unit.drivers.wire import Wire
 
-from zteleop.drivers.port import Port
+from zteleop.drivers import port as module
+from zteleop.drivers.i2c import EREMOTEIO
+from zteleop.drivers.port import ATTEMPTS, PATIENCE, Port
 from zteleop.drivers.registers import MODE1, MODE2
 from zteleop.errors import DeviceError
 
@@ -37,6 +40,50 @@ def test_a_missing_chip_is_searched_for_only_when_asked(wire: Wire, port: Port) 
         port.get(MODE1)
     with pytest.raises(DeviceError, match="check power"), port.in_words():
         port.get(MODE1)
+
+
+def test_the_bus_is_searched_once_a_fault(wire: Wire, port: Port) -> None:
+    def miss() -> int:
+        wire.reads.clear()
+        with pytest.raises(DeviceError, match="found 0x41"), port.in_words(search=True):
+            port.get(MODE1)
+        return len(wire.reads)
+
+    wire.address = 0x41
+    assert [miss(), miss(), miss()] == [ATTEMPTS + 64, ATTEMPTS, ATTEMPTS]
+    wire.address = 0x40
+    with port.in_words(search=True):
+        port.get(MODE1)
+    wire.address = 0x41
+    assert miss() == ATTEMPTS + 64
+
+
+@pytest.mark.parametrize("act", ["get", "set", "get_block", "write"])
+@pytest.mark.parametrize(
+    ("lasts", "attempts"), [(0.0, ATTEMPTS), (PATIENCE / 4, ATTEMPTS), (PATIENCE + 0.01, 1)]
+)
+def test_what_fails_is_tried_again_at_once_but_not_on_a_slow_bus(
+    wire: Wire, port: Port, monkeypatch: pytest.MonkeyPatch, act: str, lasts: float, attempts: int
+) -> None:
+    time, tries = [100.0], []
+
+    def fail(address: int, *arguments: object) -> None:
+        time[0] += lasts
+        tries.append(arguments)
+        raise OSError(EREMOTEIO, "no")
+
+    monkeypatch.setattr(module, "time", SimpleNamespace(monotonic=lambda: time[0]))
+    for name in ("read_byte_data", "read_i2c_block_data", "write_byte_data", "write_i2c_block_data"):
+        monkeypatch.setattr(wire, name, fail)
+    acts = {
+        "get": lambda: port.get(MODE1),
+        "set": lambda: port.set(MODE1, 0),
+        "get_block": lambda: port.get_block(MODE1, 3),
+        "write": lambda: port.write([(6, bytes(8))]),
+    }
+    with pytest.raises(OSError, match="no"):
+        acts[act]()
+    assert len(tries) == attempts
 
 
 def test_verify_masks_restart_and_names_what_differs(wire: Wire, port: Port) -> None:

@@ -1,4 +1,5 @@
-from itertools import pairwise
+from itertools import count, pairwise
+from types import SimpleNamespace
 
 import pytest
 from unit.nodes.fakes import Chip
@@ -7,7 +8,8 @@ from zteleop.control.drive import Drive, DriveSettings
 from zteleop.control.proof import Prover
 from zteleop.errors import DeviceError
 from zteleop.messages import Beat, Pwm
-from zteleop.nodes.output import FAILED_STEPS, REPAIR_EVERY, Output
+from zteleop.nodes import output as module
+from zteleop.nodes.output import FAILED_STEPS, REPAIR_EVERY, SLOW, Output
 
 NEUTRAL = {0: 1509.6, 1: 1530.0}
 PULSES = {0: 1509.6, 1: 1600.0}
@@ -125,14 +127,40 @@ def test_a_single_disturbed_check_is_no_fault(bench: Bench) -> None:
 def test_while_broken_nothing_but_neutral_is_written(bench: Bench) -> None:
     bench.break_down()
     bench.chip.broken -= {"write", "check"}
+    before = list(bench.chip.writes)
     bench.chip.log.clear()
     for _ in range(50):
         bench.push()
         bench.step()
         bench.output.write(PULSES, bench.now)
         bench.output.check(bench.now)
-    assert set(bench.chip.log) == {"start"}
-    assert bench.chip.writes[-1] == NEUTRAL
+    assert set(bench.chip.log) == {"write", "start"}
+    assert all(written == NEUTRAL for written in bench.chip.writes[len(before) :])
+
+
+def test_a_chip_at_fault_gets_neutral_first_and_at_every_step(bench: Bench) -> None:
+    bench.break_down()
+    bench.chip.log.clear()
+    for _ in range(20):
+        bench.step(0.01)
+    assert bench.chip.log[:3] == ["write", "start", "write"]
+    assert bench.chip.log.count("write") == 20
+
+
+def test_a_bus_on_which_neutral_takes_long_is_asked_for_nothing_more(
+    bench: Bench, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bench.break_down()
+    bench.chip.broken.clear()
+    monkeypatch.setattr(module, "clock", SimpleNamespace(now=count(step=SLOW + 0.01).__next__))
+    bench.chip.log.clear()
+    for _ in range(20):
+        bench.step()
+    assert set(bench.chip.log) == {"write"}
+    monkeypatch.undo()
+    bench.step()
+    assert bench.chip.log[-2:] == ["start", "write"]
+    assert bench.state == "idle"
 
 
 def test_it_is_repaired_at_once_and_then_ten_times_a_second(bench: Bench) -> None:

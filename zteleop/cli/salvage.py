@@ -1,0 +1,87 @@
+"""What can be read of a settings file that is not right, for verbs that must not fail for a typo."""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from zteleop import config
+from zteleop.config import Config
+from zteleop.errors import ConfigError
+
+Values = dict[str, Any]
+_UNREADABLE = (msgspec.DecodeError, ValueError, RecursionError)
+_TABLES = re.compile(rb"^(?=[ \t]*\[)", re.MULTILINE)
+
+
+def salvage(path: Path | None = None) -> tuple[Config, str]:
+    """Return the settings of a file, and what is wrong with it; what cannot be read is as built in."""
+    try:
+        return config.load(path), ""
+    except ConfigError as error:
+        return _convert(_sound(_read(_text(path)))) or Config(), str(error)
+
+
+def _text(path: Path | None) -> bytes:
+    try:
+        with (path or config.found() or Path()).open("rb") as file:
+            return file.read(config.LONGEST)
+    except OSError:
+        return b""
+
+
+def _read(text: bytes) -> Values:
+    """Return the values of every table that is TOML, and of the others those of each line that is."""
+    values: Values = {}
+    for table in _TABLES.split(text):
+        for part in [table] if _decode(table) is not None else _lines(table):
+            _merge(values, _decode(part) or {})
+    return values
+
+
+def _lines(table: bytes) -> Iterator[bytes]:
+    head, *lines = table.splitlines()
+    if not head.lstrip().startswith(b"["):
+        yield head
+        head = b""
+    for line in lines:
+        yield head + b"\n" + line
+
+
+def _decode(text: bytes) -> Values | None:
+    try:
+        values: Values = msgspec.toml.decode(text)
+    except _UNREADABLE:
+        return None
+    return values
+
+
+def _merge(values: Values, more: Values) -> None:
+    for name, value in more.items():
+        if isinstance(value, dict) and isinstance(values.get(name), dict):
+            _merge(values[name], value)
+        else:
+            values[name] = value
+
+
+def _sound(values: Values, *path: str) -> Values:
+    """Return the values that can be obeyed alone; of a table that cannot, those of its entries that can."""
+    found: Values = {}
+    for name, value in values.items():
+        lone: Values = {name: value}
+        for part in reversed(path):
+            lone = {part: lone}
+        if _convert(lone):
+            found[name] = value
+        elif isinstance(value, dict) and (inner := _sound(value, *path, name)):
+            found[name] = inner
+    return found
+
+
+def _convert(values: Values) -> Config | None:
+    try:
+        return msgspec.convert(values, Config)
+    except (msgspec.ValidationError, ConfigError):
+        return None
