@@ -8,11 +8,11 @@ import msgspec
 import pytest
 import zenoh
 from fuzz.reading import corpus, is_key, parts
-from rig import NEUTRAL, Process, Rig, Watch, hear, until
+from rig import NEUTRAL, Process, Rig, Watch, hear, repeating, until
 
 from zteleop.bus import codec
 from zteleop.bus.topics import TOPICS
-from zteleop.messages import Beat, Stop, String, Twist
+from zteleop.messages import Beat, Log, Stop, String, Twist
 
 BLOCK = zenoh.CongestionControl.BLOCK
 PATHS = [
@@ -74,6 +74,9 @@ class Company:
         self.last_word = self.stranger.declare_publisher(
             "robot/bench/last", encoding=codec.encoding_of(String), congestion_control=BLOCK
         )
+        self.last_log = self.stranger.declare_publisher(
+            "robot/bench/log", encoding=codec.encoding_of(Log), congestion_control=BLOCK
+        )
         until(lambda: getattr(self.last_word.matching_status, "matching"), "who hears the last word")  # noqa: B009
         until(lambda: len(self.children) == 2, "an actuator and its black box")
         self.found = self.children
@@ -95,6 +98,10 @@ class Company:
         self.words += 1
         self.last_word.put(codec.encode(String(f"{self.words}")))
         hear(self.last, lambda word: word.data == f"{self.words}", "the last word")
+        # The keyboard may still be reading what the stranger said as the robot, and lets go for it.
+        word = f"word {self.words} is read"
+        with repeating(lambda: self.last_log.put(codec.encode(log(word))), 0.1):
+            self.seat.shows(word)
         hear(self.truth.subscription("beat", Beat), lambda beat: True, "a beat")
 
     def drives(self, key: str, pattern: tuple[int, int]) -> None:
@@ -114,6 +121,13 @@ class Company:
         assert self.seat.process.poll() is None
         assert b"\x1b]" not in self.seat.output
         assert b"Traceback" not in self.seat.output
+
+
+def log(words: str) -> Log:
+    """Return what a keyboard shows as it is."""
+    said = Log.zero()
+    said.name, said.msg = "stranger", words
+    return said
 
 
 def is_plain(process: Process) -> None:
