@@ -110,13 +110,17 @@ class Bench:
         """A stop by somebody is in the file, and shown to everybody."""
         until(lambda: self.kept, "a stop in the file")
         assert self.kept["by"] == by
-        hear(self.statuses, lambda status: status.stop == self.kept["id"], "the stop in drive_status")
+        hear(
+            self.statuses,
+            lambda status: self.kept["id"] in [stop.id for stop in status.stops],
+            "the stop in drive_status",
+        )
 
     @property
     def kept(self) -> dict[str, object]:
         """The stop in the file; nothing while it is being written."""
         with suppress(FileNotFoundError, ValueError):
-            self.last = json.loads(self.stop_file.read_text())
+            self.last = json.loads(self.stop_file.read_text())[-1]
         return self.last
 
     def press_stop(self) -> None:

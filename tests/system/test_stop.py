@@ -124,19 +124,19 @@ def test_a_stop_survives_the_actuator_and_its_watchdog(
     rig: Rig, actuator: Process, statuses: Subscription[DriveStatus], driving: None
 ) -> None:
     stop_by_shell(rig)
-    stop = in_force(statuses).stop
+    stops = in_force(statuses).stops
     with Watch(rig) as watch:
         child = actuator.child
         assert child
         os.kill(child, signal.SIGKILL)
         until(lambda: actuator.child not in (None, child), "another actuator")
         statuses.newest()
-        assert in_force(statuses).stop == stop
+        assert in_force(statuses).stops == stops
         actuator.signal(signal.SIGKILL)
         actuator.ends()
         rig.actuator()
         statuses.newest()
-        assert in_force(statuses).stop == stop
+        assert in_force(statuses).stops == stops
     assert watch.seen == {NEUTRAL}
     stop_by_shell(rig, "--release")
     drives(rig)
@@ -176,19 +176,47 @@ def test_levers_moved_while_stopped_stand_at_neutral_when_it_is_released(
 def test_of_two_stops_by_two_people_each_is_released_by_its_own_name(
     rig: Rig, keyboard: Terminal, statuses: Subscription[DriveStatus], driving: None
 ) -> None:
-    stop_by_shell(rig, "--why", "a cat")
-    anns = in_force(statuses)
-    keyboard.shows("● stopped", "a cat")
+    bob = Stop(True, 42, "bob@sofa", "somebody is under the car")
+    stops = rig.node("sofa").publisher("stop", Stop)
+    until(lambda: stops.matched, "somebody who hears stops")
+    stops.publish(bob)
+    hear(statuses, lambda status: status.stops == [bob], "bob's stop")
     keyboard.type(DELETE)
     keyboard.shows("bench is stopped (acknowledged within")
-    bobs = hear(statuses, lambda status: status.stop != anns.stop, "another stop")
-    assert bobs.state == "stopped"
-    stops = rig.node("late").publisher("stop", Stop)
-    until(lambda: stops.matched, "somebody who hears stops")
-    with repeating(lambda: stops.publish(Stop(False, anns.stop, "ann", "")), 0.05):
-        stays_neutral(rig, 0.7)
-    stop_by_shell(rig, "--release")
+    keyboard.type("r")
+    keyboard.shows("yours is released, but bench is stopped by bob@sofa")
+    assert hear(statuses, lambda status: len(status.stops) < 2, "one released").stops == [bob]
+    stays_neutral(rig, 0.7)
+    refused = rig.result("stop", "--release", *rig.bus_options())
+    assert (refused.returncode, refused.stdout) == (1, "")
+    assert (
+        "bench is stopped by bob@sofa (somebody is under the car); each releases their own" in refused.stderr
+    )
+    stop_by_shell(rig, "--release", "--all")
     drives(rig)
+
+
+def test_both_stops_survive_a_robot_that_is_switched_off_and_on(
+    rig: Rig, actuator: Process, statuses: Subscription[DriveStatus]
+) -> None:
+    stops = rig.node("sofa").publisher("stop", Stop)
+    until(lambda: stops.matched, "somebody who hears stops")
+    both = [Stop(True, number, by, "") for number, by in ((42, "bob@sofa"), (43, "ann@desk"))]
+    for stop in both:
+        stops.publish(stop)
+    hear(statuses, lambda status: status.stops == both, "both stops")
+    actuator.signal(signal.SIGKILL)
+    actuator.ends()
+    rig.actuator()
+    statuses.newest()
+    assert in_force(statuses).stops == both
+
+
+def test_a_name_that_no_robot_has_is_told_with_those_that_are_heard(rig: Rig, actuator: Process) -> None:
+    where = [word for word in rig.bus_options() if word not in ("--robot", rig.robot)]
+    done = rig.result("stop", "gabriel", *where)
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr.endswith("; heard here: bench\n")
 
 
 def test_a_robot_that_nobody_reaches_is_an_alarm_with_what_to_do(rig: Rig) -> None:
@@ -200,7 +228,7 @@ def test_a_robot_that_nobody_reaches_is_an_alarm_with_what_to_do(rig: Rig) -> No
     assert shell.ends() == 1
     assert shell.text == (
         "zteleop stop: bench has not acknowledged the stop within 2 s: "
-        "cut its power, or run zteleop neutral on it"
+        "cut its power, or run zteleop neutral on it; no robot is heard here"
     )
     keyboard.shows("bench has not acknowledged the stop within 2 s: cut its power")
     keyboard.type("q")

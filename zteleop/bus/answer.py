@@ -14,6 +14,8 @@ ANEW = "when whoever watches the robot wants it to move, start this anew (a prog
 ADVICE: dict[str, str] = {
     Refusal.EARLIER_START: ANEW,
     Refusal.NOT_FROM_NEUTRAL: ANEW,
+    Refusal.BEFORE_RELEASE: ANEW,
+    Refusal.BEFORE_REPAIR: ANEW,
     Refusal.AT_REST: ANEW,
     Refusal.STALE: "look at the link, and keep every handler shorter than 0.3 s",
     Refusal.REPLAYED: "publish from one place",

@@ -25,11 +25,11 @@ def release(bench: Bench) -> None:
 
     def released() -> bool:
         status = bench.status
-        if status and status.stop:
-            bench.release(status.stop)
-        return bool(status and not status.stop)
+        for stop in status.stops if status else ():
+            bench.release(stop.id)
+        return bool(status and not status.stops)
 
-    bench.until(lambda: (status := bench.status) and status.stop, PATIENCE)
+    bench.until(lambda: (status := bench.status) and status.stops, PATIENCE)
     bench.until(released, PATIENCE)
 
 

@@ -111,6 +111,11 @@ def join(name: str, settings: Config) -> Node:
         raise
 
 
+def look_around(name: str, settings: Config, settle: bool) -> Node:
+    """Join the bus as a node of no robot, when everybody is found where `settle` says so."""
+    return Node(name, session=open_session(settings.bus, settle=settle))
+
+
 def count(text: str) -> int:
     """Return how often, as typed; at least once."""
     if not text.isdecimal() or int(text) < 1:

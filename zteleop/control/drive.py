@@ -62,6 +62,8 @@ class DriveSettings(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 LACKS_AN_ACT = (Refusal.OPERATOR_IDLE, Refusal.INTERRUPTED)
+BEFORE: dict[State, Refusal] = {"fault": Refusal.BEFORE_REPAIR}
+"""Why whatever began before the end of a hold does not count, where it is not the start."""
 
 
 class Refused(NamedTuple):
@@ -175,18 +177,18 @@ class Drive:
 
     def free(self, reason: str, now: float) -> None:
         """Drop a reason to rest; whoever drives next must leave neutral after now."""
-        if self.holds.drop(reason):
-            self.gate.begin_after(now)
+        if hold := self.holds.drop(reason):
+            self.gate.begin_after(now, BEFORE.get(hold.state, Refusal.NOT_FROM_NEUTRAL))
 
     def stop(self, said: Stop, now: float) -> bool:
         """Obey a stop or a release of one; True when that changed anything."""
         changed = self.latch.obey(said)
-        if changed and self.latch.stop:
-            self.hold("stop", "stopped", describe(self.latch.stop), now)
+        if changed and self.latch.stops:
+            self.hold("stop", "stopped", describe(self.latch.stops), now)
         elif changed:  # a release, perhaps of a stop that never arrived
             self.holds.drop("stop")
             self.mux.clear()
-            self.gate.begin_after(now)
+            self.gate.begin_after(now, Refusal.BEFORE_RELEASE)
         return changed
 
     def withdraw(self, sender: int, now: float) -> None:

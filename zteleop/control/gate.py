@@ -38,6 +38,8 @@ class Refusal(StrEnum):
     NOT_FROM_NEUTRAL = (
         "it was moving before the robot started or the link came back; let go first, or pause for 2 s"
     )
+    BEFORE_RELEASE = "it was moving before the stop was released; let go first, or pause for 2 s"
+    BEFORE_REPAIR = "it was moving before the chip's fault was over; let go first, or pause for 2 s"
     INTERRUPTED = "it was said before the robot went on; act once more"
     HELD = "another sender drives this source, or did when this one began; let go, and begin anew"
     AT_REST = "the robot is kept at rest; let go, and begin anew when it is free"
@@ -83,6 +85,7 @@ class Gate:
         """Forget every sender; what began before now is over."""
         self.epoch, self._floor, self._forgotten = epoch, now - self._grace, NEVER
         self._resumed = NEVER
+        self._over = Refusal.NOT_FROM_NEUTRAL
         self._senders.clear()
 
     @property
@@ -103,9 +106,9 @@ class Gate:
         seen = self._senders.get(sender)
         return seen.counted if seen else NEVER
 
-    def begin_after(self, now: float) -> None:
-        """Count only claims that leave neutral later than now."""
-        self._floor = max(self._floor, now - self._grace)
+    def begin_after(self, now: float, why: Refusal = Refusal.NOT_FROM_NEUTRAL) -> None:
+        """Count only claims that leave neutral later than now, and refuse all others by that word."""
+        self._floor, self._over = max(self._floor, now - self._grace), why
 
     def interrupt(self, now: float, limit: float) -> None:
         """End an interruption; claims that counted within `limit` seconds may go on, others begin anew."""
@@ -145,7 +148,7 @@ class Gate:
         if not moving:
             return None
         if not self._may_begin(proof, seen):  # first: a claim that is over lacks more than an act
-            return Refusal.NOT_FROM_NEUTRAL
+            return self._over if proof.began <= self._floor else Refusal.NOT_FROM_NEUTRAL
         if not 0 <= now - proof.acted <= self._deadlines.operator:
             return Refusal.OPERATOR_IDLE
         resumed = max(self._resumed, seen.resumed)

@@ -45,6 +45,6 @@ class Holds:
         since = self._holds[reason].since if reason in self._holds else now
         self._holds[reason] = Hold(state, why, since)
 
-    def drop(self, reason: str) -> bool:
-        """Drop a reason; True when it was one."""
-        return self._holds.pop(reason, None) is not None
+    def drop(self, reason: str) -> Hold | None:
+        """Drop a reason, and return what it was."""
+        return self._holds.pop(reason, None)

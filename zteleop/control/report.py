@@ -22,8 +22,11 @@ def describe(settings: DriveSettings, tick_us: float, ready: bool = True) -> Veh
     )
 
 
-def status(drive: Drive, step: Step, written: float) -> DriveStatus:
-    """Return what a robot does; `written` is when the step's pulses were on the chip."""
+def status(drive: Drive, step: Step, written: float, unkept: str = "") -> DriveStatus:
+    """Return what a robot does; `written` is when the step's pulses were on the chip.
+
+    `unkept` says why its stops are on no disk.
+    """
     claim = step.claim
     return DriveStatus(
         state=step.state,
@@ -35,7 +38,8 @@ def status(drive: Drive, step: Step, written: float) -> DriveStatus:
         pulses=drive.calibration.pulses(step.wheels),
         seq=claim.seq if claim else 0,
         written=written,
-        stop=drive.latch.stop.id if drive.latch.stop else 0,
+        stops=list(drive.latch.stops),
+        unkept=unkept,
         refused=drive.refused,
         clamped=drive.clamped,
         max_speed=step.bound.speed,

@@ -4,7 +4,7 @@ from zteleop.control.gate import Refusal
 from zteleop.control.proof import NEVER
 from zteleop.messages import DriveStatus, Refusals
 
-NOT_BEGUN = (Refusal.EARLIER_START, Refusal.NOT_FROM_NEUTRAL)
+NOT_BEGUN = (Refusal.EARLIER_START, Refusal.NOT_FROM_NEUTRAL, Refusal.BEFORE_REPAIR)
 """What a claim is refused for that has only to begin anew."""
 AT_MOST_EVERY = 1.0
 """s between two beginnings, in which the robot's answer to the first arrives"""
@@ -28,7 +28,7 @@ class Resume:
         """Take in what the robot does: a status that obeys this sender names the stop that was over then."""
         if status.operator == self._sender:
             self._released, self._stopped = status.released, False
-        self._stopped |= status.stop != 0 or status.state == "stopped" or status.released != self._released
+        self._stopped |= bool(status.stops) or status.released != self._released
 
     def may(self, told: Refusals | None, now: float) -> bool:
         """Say whether to let go now, and begin anew; each word of the robot is answered once."""

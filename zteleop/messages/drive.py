@@ -6,6 +6,7 @@ from msgspec import Meta
 
 from zteleop.messages.geometry import Twist
 from zteleop.messages.message import Message
+from zteleop.messages.safety import Stop
 from zteleop.messages.std import Int16
 
 State = Literal["starting", "idle", "driving", "link lost", "operator idle", "stopped", "fault"]
@@ -98,8 +99,10 @@ class DriveStatus(Message):
     """Of the last command accepted."""
     written: float
     """When its pulses were on the chip, by the robot's clock."""
-    stop: Annotated[int, Meta(ge=0, lt=2**53)]
-    """The id of the stop in force, which a release must name; 0 when there is none."""
+    stops: list[Stop]
+    """In force, the oldest first; each stays until a release names its id."""
+    unkept: str
+    """Why they would not outlive a restart; empty when they would."""
     refused: int
     clamped: int
     max_speed: float

@@ -11,7 +11,7 @@ Words = Annotated[str, Meta(max_length=200)]
 
 
 class Stop(Message):
-    """A stop, which stays until a release names it; anybody may say either."""
+    """A stop, which stays beside all others until a release names it; anybody may say either."""
 
     ros_type: ClassVar[str] = "zteleop_msgs/msg/Stop"
 
@@ -20,6 +20,7 @@ class Stop(Message):
     id: Annotated[int, Meta(ge=0, lt=2**53)]
     """Random for each press, so that what a network delivers late releases nothing new."""
     by: Words
+    """Who presses, as user@host; whoever presses again replaces their own."""
     why: Words
 
 

@@ -35,6 +35,7 @@ AT_MOST_EVERY = 0.005
 IN_A_ROW = 4
 TELL_EVERY = 0.05
 DESCRIBE_EVERY = CHECK_EVERY = 0.2
+KEEP_EVERY = 1.0
 WATCHDOG_SILENCE = 0.45
 """s without a word of the watchdog until neutral and exit: 0.5 s since it froze at the latest."""
 DEAF = "deaf"
@@ -76,7 +77,7 @@ class Actuator:
             self._take_over(standing, now)
         else:
             self._drive.hold(DEAF, "starting", UNHEARD, now)
-        if stop := stop_file.load():
+        for stop in stop_file.load():
             self._drive.stop(stop, self._since)
         self._watched = clock.now()
         self._step = self._drive.step(self._watched)
@@ -102,10 +103,11 @@ class Actuator:
             self._node.every(TELL_EVERY)(self._tell)
             self._node.every(DESCRIBE_EVERY)(self._describe)
             self._node.every(CHECK_EVERY)(lambda: self._output.check(clock.now()))
+            self._node.every(KEEP_EVERY)(self._stop_file.tend)
             if health := self._health:
                 self._node.every(LOOK_EVERY)(lambda: self._drive.cap.bear(health.look(clock.now())))
             self._node.log.info(f"obeys {self._node.robot}")
-            if held := self._drive.latch.stop:
+            if held := self._drive.latch.stops:
                 self._node.log.warn(describe_stop(held))
             self._journal.event("start", robot=self._node.robot, epoch=self._drive.gate.epoch)
             if why := self._drive.interruption:
@@ -205,8 +207,8 @@ class Actuator:
     def _hear_watchdog(self) -> None:
         words = self._link.read()
         now = self._watched = clock.now()
-        if words.stop:
-            self._obey(words.stop)
+        for stop in words.stops:
+            self._obey(stop)
         if words.hears:
             self._drive.resume(DEAF, "the watchdog did not hear this robot on the bus", now)
         elif words.hears is False:
@@ -214,15 +216,17 @@ class Actuator:
 
     def _obey(self, said: Stop) -> None:
         """Obey a stop or a release; the pulses first, the file and the words afterwards."""
-        stop = self._drive.latch.stop
-        releases = not said.engaged and stop is not None and said.id == stop.id
-        if releases and not self._stop_file.remove():
+        latch = self._drive.latch
+        rest = latch.without(said.id)
+        releases = not said.engaged and len(rest) < len(latch.stops)
+        if releases and not self._stop_file.release(said, rest):
             return
         if not self._drive.stop(said, clock.now()):
             return
-        self._advance()
         if said.engaged:
-            self._stop_file.keep(said)
+            self._stop_file.promise(latch.stops)
+        self._advance()
+        self._stop_file.tend()
         self._journal.event("stop" if said.engaged else "release", by=said.by, why=said.why, id=said.id)
 
     def _tell_chip(self, words: str) -> None:
@@ -240,7 +244,7 @@ class Actuator:
         self._tell_status()
 
     def _tell_status(self) -> None:
-        self._statuses.publish(status(self._drive, self._step, self._written))
+        self._statuses.publish(status(self._drive, self._step, self._written, self._stop_file.unkept))
 
     def _describe(self) -> None:
         self._vehicles.publish(describe(self._settings, self._driver.tick_us, self._step.state != "starting"))

@@ -64,7 +64,7 @@ class Words(NamedTuple):
 
     hears: bool | None
     """whether it hears the bus; None when it said nothing of that"""
-    stop: Stop | None
+    stops: tuple[Stop, ...] = ()
 
 
 class ActuatorEnd(End):
@@ -83,18 +83,18 @@ class ActuatorEnd(End):
         if data is None:
             raise DeviceError("the watchdog is gone; the actuator does not run without one")
         self._rest += data
-        hears, stop = None, None
+        hears, stops = None, []
         while self._rest:
             word, length = self._rest[:1], 1
             if word == STOP:
                 length = _STOP_HEAD.size + int.from_bytes(self._rest[1 : _STOP_HEAD.size], "little")
                 if len(self._rest) < max(length, _STOP_HEAD.size):
                     break
-                stop = _stop(self._rest[_STOP_HEAD.size : length])
+                stops.append(_stop(self._rest[_STOP_HEAD.size : length]))
             else:
                 hears = word == HEARS
             self._rest = self._rest[length:]
-        return Words(hears, stop)
+        return Words(hears, tuple(stops))
 
 
 class WatchdogEnd(End):

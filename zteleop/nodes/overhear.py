@@ -9,7 +9,7 @@ from zteleop.control.judge import GRACE, Judge
 from zteleop.control.stop import Latch
 from zteleop.errors import MessageError
 from zteleop.messages import Beat, Stop
-from zteleop.nodes.stop_file import StopFile
+from zteleop.nodes.stop_file import UNREADABLE, StopFile
 
 DEAF_AFTER = 0.5
 """s without a beat of the actuator's epoch."""
@@ -29,9 +29,10 @@ class Overhearing:
         ]
         self._beats = node.subscription("beat", Beat, complain=False)
         self._stops: Subscription[Stop] = node.subscription("stop", Stop, complain=False)
-        self._latch = Latch()
-        self._asked_at = float("-inf")
-        self._told = self._was_kept = False
+        self._latch = Latch(stop_file.load())
+        self._kept = frozenset[int]()
+        self._asked: dict[int, float] = {}
+        """When a stop was heard that the actuator must keep, by its id."""
         self._beat_at = float("-inf")
         self.commands = 0
 
@@ -60,28 +61,44 @@ class Overhearing:
             pass
 
     @property
-    def stop(self) -> Stop | None:
-        """The stop in force, as far as it was heard."""
-        return self._latch.stop
+    def stops(self) -> tuple[Stop, ...]:
+        """The stops in force, as far as they were heard."""
+        return self._latch.stops
 
-    def engage(self, stop: Stop, now: float) -> None:
+    def engage(self, stop: Stop) -> None:
         """Learn of a stop that the watchdog itself engages."""
         self._latch.obey(stop)
-        self._asked_at, self._told = now, True
+        self._asked.pop(stop.id, None)
 
     def _listen_for_stops(self, now: float) -> Stop | None:
         for received in self._stops.take():
             if self._latch.obey(received.message):
-                self._asked_at, self._told = now, False
-                if not received.message.engaged:
+                if received.message.engaged:
+                    self._asked[received.message.id] = now
+                else:
                     self._judge.hear_release(now)
-        kept = self._stop_file.exists()
-        if self._was_kept and not kept and self._asked_at != now:
-            self._latch.forget()  # whoever removed the file has released it
-        self._was_kept = kept
-        stop = self._latch.stop
-        self._judge.rest(kept or stop is not None, now)
-        if stop is None or kept or self._told or now - self._asked_at <= GRACE:
+        self._compare(self._stop_file.ids(), now)
+        self._judge.rest(bool(self._kept or self._latch.stops), now)
+        return self._find_ignored(now)
+
+    def _compare(self, kept: frozenset[int], now: float) -> None:
+        """Forget what was in the file and no longer is: whoever took it out has released it."""
+        gone = {identity for identity in self._kept - kept if self._asked.get(identity) != now}
+        if UNREADABLE in kept:  # perhaps it is only being written
+            self._kept |= kept
+        else:
+            self._latch.forget(gone)
+            self._kept = kept
+
+    def _find_ignored(self, now: float) -> Stop | None:
+        """Return a stop that is in force, and for long in no file; once."""
+        if not self._asked or UNREADABLE in self._kept:
             return None
-        self._told = True
-        return stop
+        in_force = {stop.id: stop for stop in self._latch.stops}
+        for identity, at in list(self._asked.items()):
+            if identity in self._kept or identity not in in_force:
+                del self._asked[identity]
+            elif now - at > GRACE:
+                del self._asked[identity]
+                return in_force[identity]
+        return None

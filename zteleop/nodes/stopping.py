@@ -3,13 +3,19 @@
 import getpass
 import secrets
 import socket
+from collections.abc import Sequence
 from typing import Literal
 
 from zteleop.bus.node import Node
 from zteleop.control.hold import HOLDS
+from zteleop.control.stop import MERGED, is_persons, name
 from zteleop.messages import DriveStatus, Stop
 
 EVERY, PATIENCE = 0.05, 2.0
+REPEAT = 3.0
+"""s for which a stop is said, also after the answer: longer than any loss of the link that heals by itself"""
+SETTLED = 0.5
+"""s after which what a robot says of its stop is final, as far as whoever waits is concerned"""
 NEVER = float("-inf")
 _ID_BITS = 53  # what every JSON reader can count
 _LONGEST = 200
@@ -19,16 +25,18 @@ _LONGEST = 200
 class Stopping:
     """One stop or one release at a time, said 20 times a second until `drive_status` shows it."""
 
-    def __init__(self, node: Node, by: str) -> None:
-        self._robot, self._by = node.robot or "", by
-        self._publisher = node.publisher("stop", Stop)
+    def __init__(self, node: Node, by: str, robot: str = "") -> None:
+        self.robot, self._by = robot or node.robot or "", _sayable(by)
+        self._publisher = node.publisher(f"/{robot}/stop" if robot else "stop", Stop)
         self._matched = False
-        self._asked = Stop.zero()
+        self._asked: list[Stop] = []
         self._since = self._due = NEVER
+        self._before: frozenset[int] = frozenset()
+        """The stops that were in force when it was asked, as far as was seen."""
         self._seen: DriveStatus | None = None
-        self._before: DriveStatus | None = None
-        """The status at the press: a stop that it shows is none that came later."""
         self._since_then: DriveStatus | None = None
+        self._shown = self._is_over = False
+        """The stop asked for was in force, and no longer is."""
         self.state: Literal["", "pending", "done", "failed"] = ""
         self.words = ""
         self.ended = NEVER
@@ -36,88 +44,130 @@ class Stopping:
     @property
     def unanswered(self) -> bool:
         """A stop was asked for, and nobody knows whether it is in force."""
-        return self.state == "failed" and self._asked.engaged
+        return self.state == "failed" and self._engages
+
+    @property
+    def unheard(self) -> bool:
+        """The robot has said nothing since it was asked."""
+        return self._since_then is None
+
+    def repeats(self, now: float) -> bool:
+        """Say whether a stop is still being said, whatever the answer was."""
+        return self._engages and not self._is_over and now - self._since < REPEAT
 
     def engage(self, now: float, why: str = "") -> None:
         """Begin to ask for a stop, under an id of its own."""
-        self._before = self._seen
-        self._ask(Stop(True, 1 + secrets.randbelow(2**_ID_BITS - 1), _sayable(self._by), _sayable(why)), now)
-        self.words = f"asking {self._robot} to stop"
+        self._ask([Stop(True, 1 + secrets.randbelow(2**_ID_BITS - 3), self._by, _sayable(why))], now)
+        self.words = f"asking {self.robot} to stop"
 
-    def release(self, status: DriveStatus | None, now: float) -> None:
-        """Begin to ask for the end of the stop that a status shows; never of one that nobody has seen."""
-        stopped = status is not None and status.state == "stopped"
-        if self.state == "pending" and (self._asked.engaged or status is None) and not stopped:
+    def release(self, status: DriveStatus | None, now: float, everybodys: bool = False) -> None:
+        """Begin to ask for the end of one's own stops that a status shows, or of everybody's."""
+        stops = status.stops if status else []
+        if self.state == "pending" and (self._engages or status is None) and not stops:
             return  # what is asked for comes first
+        meant = [stop for stop in stops if everybodys or self._may_release(stop)]
         if status is None:
-            self._asked = Stop.zero()
-            self._end("failed", f"{self._robot} is not heard, so nothing is released; is it on?", now)
-        elif not stopped:
-            self._asked = Stop.zero()
-            self._end("done", f"{self._robot} is not stopped", now)
-        elif self.state != "pending" or self._asked.engaged or self._asked.id != status.stop:
-            self._ask(Stop(False, status.stop, _sayable(self._by), ""), now)
-            self.words = f"asking {self._robot} to end its stop"
+            self._refuse("failed", f"{self.robot} is not heard, so nothing is released", now)
+        elif not stops:
+            self._refuse("done", f"{self.robot} is not stopped", now)
+        elif not meant:
+            self._refuse("failed", self._whose(stops), now)
+        elif self.state != "pending" or _ids(self._asked) != _ids(meant) or self._engages:
+            self._before = _ids(stops)
+            self._ask([Stop(False, stop.id, self._by, "") for stop in meant], now)
+            self.words = f"asking {self.robot} to end its stop"
 
     def heed(self, status: DriveStatus | None, now: float) -> bool:
         """Take in a new status, if there is one, and go on asking; True when nothing is asked any more."""
         self._seen, self._since_then = status or self._seen, status or self._since_then
+        if status and self._engages:
+            is_shown = self._shows(status)
+            self._is_over |= self._shown and not is_shown
+            self._shown |= is_shown
         if self.state == "pending":
             self._go_on(status, now)
-        elif self.unanswered and status and status.state == "stopped" and status.stop == self._asked.id:
-            self._end("done", f"{self._robot} is stopped (acknowledged late)", now)
+        elif self.unanswered and status and self._shows(status):
+            self._end("done", f"{self.robot} is stopped (acknowledged late){_unkept(status)}", now)
+        if (self.state == "pending" or self.repeats(now)) and self._is_due(now):
+            self._say(now)
         return self.state != "pending"
 
-    def _ask(self, said: Stop, now: float) -> None:
+    @property
+    def _engages(self) -> bool:
+        return bool(self._asked) and self._asked[0].engaged
+
+    def _may_release(self, stop: Stop) -> bool:
+        return stop.by == self._by or (not is_persons(stop) and stop.id != MERGED.id)
+
+    def _whose(self, stops: Sequence[Stop]) -> str:
+        return (
+            f"{self.robot} is stopped by {name(stops)}; each releases their own, "
+            f"zteleop stop --release --all {self.robot} everybody's"
+        )
+
+    def _refuse(self, state: Literal["done", "failed"], words: str, now: float) -> None:
+        self._asked = []
+        self._end(state, words, now)
+
+    def _ask(self, said: list[Stop], now: float) -> None:
+        if said[0].engaged:
+            self._before = _ids(self._seen.stops) if self._seen else frozenset()
         self.state, self._asked, self._since = "pending", said, now
-        self._since_then = None
+        self._since_then, self._shown, self._is_over = None, False, False
         self._say(now)
+
+    def _is_due(self, now: float) -> bool:
+        """At the first listener at once: what was said before went nowhere."""
+        return now >= self._due or (self._publisher.matched and not self._matched)
 
     def _say(self, now: float) -> None:
         self._matched, self._due = self._publisher.matched, now + EVERY
-        self._publisher.publish(self._asked)
+        for said in self._asked:
+            self._publisher.publish(said)
 
     def _go_on(self, status: DriveStatus | None, now: float) -> None:
-        if status and self._asked.engaged:
-            self._look_for_stop(status, now)
-        elif status:
-            self._look_for_release(status, now)
-        if self.state != "pending":
-            return
-        if now - self._since >= PATIENCE:
+        if status and self._engages and self._shows(status):
+            self._confirm(status, now)
+        elif status and not self._engages and not _ids(status.stops) & _ids(self._asked):
+            self._find_rest(status, now)
+        elif now - self._since >= PATIENCE:
             self._give_up(now)
-        elif now >= self._due or (self._publisher.matched and not self._matched):
-            self._say(now)  # at the first listener at once: what was said before went nowhere
 
-    def _look_for_stop(self, status: DriveStatus, now: float) -> None:
-        self._before = self._before or status
-        if status.state != "stopped":
-            return
-        if status.stop == self._asked.id:
-            self._end("done", f"{self._robot} is stopped{self._took(now)}", now)
-        elif self._before.state != "stopped" or self._before.stop != status.stop:
-            self._end("done", f"{self._robot} is stopped, by somebody else as well{self._took(now)}", now)
+    def _confirm(self, status: DriveStatus, now: float) -> None:
+        """Say that it is stopped, once the disk has it too, or does not take it."""
+        if not status.unkept or now - self._since >= SETTLED:
+            self._end("done", f"{self.robot} is stopped{self._took(now)}{_unkept(status)}", now)
 
-    def _look_for_release(self, status: DriveStatus, now: float) -> None:
-        if status.state == "stopped" and status.stop != self._asked.id:
-            self._end("failed", f"{self._robot} was stopped anew meanwhile: {status.why}", now)
-        elif status.state in HOLDS and status.state != "stopped":
-            self._end("done", f"the stop of {self._robot} is over, but it is kept at rest: {status.why}", now)
-        elif status.state != "stopped":
-            self._end("done", f"{self._robot} may drive again, from neutral{self._took(now)}", now)
+    def _shows(self, status: DriveStatus) -> bool:
+        """Say whether a stop is in force: by its id, or by what has taken its place."""
+        return any(
+            stop.id == self._asked[0].id
+            or (stop.id not in self._before and (stop.by == self._by or stop.id == MERGED.id))
+            for stop in status.stops
+        )
+
+    def _find_rest(self, status: DriveStatus, now: float) -> None:
+        """Say what keeps the robot at rest when the stops that were meant are over."""
+        if _ids(status.stops) - self._before:
+            self._end("failed", f"{self.robot} was stopped anew meanwhile: {status.why}", now)
+        elif status.stops:
+            self._end("done", f"yours is released, but {self._whose(status.stops)}", now)
+        elif status.state in HOLDS:
+            self._end("done", f"the stop of {self.robot} is over, but it is kept at rest: {status.why}", now)
+        else:
+            self._end("done", f"{self.robot} may drive again, from neutral{self._took(now)}", now)
 
     def _give_up(self, now: float) -> None:
-        """Say what to do now; a robot that another's older stop keeps at rest is stopped all the same."""
+        """Say what to do now."""
         seen = self._since_then
-        if self._asked.engaged and seen and seen.state == "stopped":
-            what = "is stopped, but not by this stop, which it has not acknowledged"
-            self._end("done", f"{self._robot} {what}: {seen.why}", now)
-        elif self._asked.engaged:
-            what = f"has not acknowledged the stop within {PATIENCE:g} s"
-            self._end("failed", f"{self._robot} {what}: cut its power, or run zteleop neutral on it", now)
-        else:
+        if not self._engages:
             what = f"has not acknowledged the release within {PATIENCE:g} s"
-            self._end("failed", f"{self._robot} {what}; take it as stopped, and try again", now)
+            self._end("failed", f"{self.robot} {what}; take it as stopped, and try again", now)
+            return
+        what = f"has not acknowledged the stop within {PATIENCE:g} s"
+        others = f", and rests only by that of {name(seen.stops)}" if seen and seen.stops else ""
+        advice = "cut its power, or run zteleop neutral on it"
+        self._end("failed", f"{self.robot} {what}{others}: {advice}", now)
 
     def _took(self, now: float) -> str:
         return f" (acknowledged within {max(1.0, (now - self._since) * 1000):.0f} ms)"
@@ -133,6 +183,15 @@ def person() -> str:
     except (KeyError, OSError):
         user = "somebody"
     return f"{user}@{socket.gethostname()}"
+
+
+def _ids(stops: Sequence[Stop]) -> frozenset[int]:
+    return frozenset(stop.id for stop in stops)
+
+
+def _unkept(status: DriveStatus) -> str:
+    """Return what whoever presses must know of the disk."""
+    return f", but only until it restarts: {status.unkept}" if status.unkept else ""
 
 
 def _sayable(text: str) -> str:

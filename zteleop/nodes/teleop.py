@@ -110,7 +110,7 @@ class Teleop:
             self._say(command)
         self._stick, self._wanted = stick, command
         self._picture.due = now + SHOW_AFTER
-        if self._device.finished and self._stopping.state != "pending":
+        if self._device.finished and self._stopping.state != "pending" and not self._stopping.repeats(now):
             self._node.stop()
 
     def _draw(self) -> None:

@@ -1,10 +1,12 @@
 """What makes a black box write: the robot at rest for a reason that somebody will ask for."""
 
+from collections import deque
 from typing import NamedTuple
 
 from zteleop.bus import codec
 from zteleop.bus.tap import Raw
 from zteleop.bus.topics import TOPICS
+from zteleop.control.stop import REMEMBERED
 from zteleop.errors import MessageError
 from zteleop.messages import DriveStatus, Stop, WatchdogStatus
 
@@ -28,8 +30,8 @@ class Triggers:
     def __init__(self) -> None:
         self._status: DriveStatus | None = None
         self._restarts: int | None = None
-        self._stop = 0
-        """the id of the last stop that was a reason"""
+        self._known: deque[int] = deque(maxlen=REMEMBERED)
+        """the ids of stops that were reasons; they are said again and again"""
 
     def hear(self, raw: Raw) -> Trigger | None:
         """Return the reason that a message is, if it is one."""
@@ -51,28 +53,33 @@ class Triggers:
         return self._hear_status(message) if isinstance(message, DriveStatus) else None
 
     def _hear_stop(self, stop: Stop) -> tuple[str, str] | None:
-        if not stop.engaged or stop.id == self._stop:  # it is repeated until it is acknowledged
+        shown = _ids(self._status) if self._status else frozenset()
+        if not stop.engaged or stop.id in shown or stop.id in self._known:
             return None
-        if self._status and self._status.stop == stop.id:
-            return None
-        self._stop = stop.id
+        self._know(stop.id)
         return STOP, f"stopped by {stop.by or 'somebody'}" + (f": {stop.why}" if stop.why else "")
 
     def _hear_status(self, status: DriveStatus) -> tuple[str, str] | None:
         before, self._status = self._status, status
         if before is None:
-            self._stop = status.stop or self._stop
             return None
-        stopped = status.state == "stopped" != before.state
-        if status.stop not in (0, before.stop, self._stop) or (stopped and not status.stop):
-            self._stop = status.stop
+        for new in _ids(status) - _ids(before) - set(self._known):
+            self._know(new)
             return STOP, status.why
         if status.state != before.state and status.state in STATES:
             return STATES[status.state], status.why
         return None
+
+    def _know(self, identity: int) -> None:
+        if identity:  # 0 is nobody's: each time it is meant anew
+            self._known.append(identity)
 
     def _hear_watchdog(self, dog: WatchdogStatus) -> tuple[str, str] | None:
         before, self._restarts = self._restarts, dog.restarts + (dog.state == "resting")
         if before is None or self._restarts <= before:
             return None
         return ACTUATOR, dog.why
+
+
+def _ids(status: DriveStatus) -> frozenset[int]:
+    return frozenset(stop.id for stop in status.stops)

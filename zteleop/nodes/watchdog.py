@@ -109,11 +109,11 @@ class Watchdog:
                 self._greet()
 
     def _greet(self) -> None:
-        """Let the outputs through, and tell a new actuator of a stop that is on no disk."""
+        """Let the outputs through, and tell a new actuator of stops that may be on no disk."""
         self._why = "the actuator steps"
         self._cut(False)
-        if self._ears.stop and self._child.link:
-            self._child.link.stop(self._ears.stop)
+        for stop in self._ears.stops:
+            self._tell_stop(stop)
         service.notify("READY=1")
 
     def _tick(self) -> None:
@@ -162,11 +162,14 @@ class Watchdog:
 
     def _engage(self, stop: Stop) -> None:
         self._node.log.error(f"stops the robot: {stop.why or stop.by}")
-        self._ears.engage(stop, clock.now())
+        self._ears.engage(stop)
+        self._tell_stop(stop)
+        self._rest()
+        self._stop_file.add(stop)  # a disk may take its time
+
+    def _tell_stop(self, stop: Stop) -> None:
         if self._child.link:
             self._child.link.stop(stop)
-        self._rest()
-        self._stop_file.keep(stop)  # a disk may take its time
 
     def _fell(self, why: str, patience: float, late: bool = False) -> None:
         """Make sure that the actuator is gone, bring the chip to rest, and start another.

@@ -6,11 +6,15 @@ import pytest
 from unit.bus.fakes import Clock
 from unit.nodes.fakes import Inbox, Node, Said
 
+from zteleop import config
+from zteleop.bus import presence
 from zteleop.cli import options
 from zteleop.cli import stop as verb
 from zteleop.cli.run import run_verb
 from zteleop.control.stop import Latch
-from zteleop.messages import DriveStatus
+from zteleop.errors import BusError
+from zteleop.messages import DriveStatus, Stop
+from zteleop.nodes.stopping import REPEAT
 
 GLANCE = 0.01
 
@@ -24,6 +28,7 @@ class Robot(Node):
     def __init__(self, clock: Clock, latch: Latch | None) -> None:
         super().__init__()
         self.clock, self.latch = clock, latch
+        self.session = None
         self.ears: list[Inbox] = []
 
     def subscription(self, topic: str, types: object, handler: Any = None) -> Inbox:
@@ -40,12 +45,11 @@ class Robot(Node):
     def answer(self) -> None:
         if self.latch is None:
             return
-        for said in self.said.get("stop", Said("stop")).take():
+        for said in self.said.get(f"/{self.robot}/stop", Said("stop")).take():
             self.latch.obey(said)
         status = DriveStatus.zero()
-        stop = self.latch.stop
-        status.state, status.why = ("stopped", "a stop") if stop else self.calm
-        status.stop = stop.id if stop else 0
+        status.stops = list(self.latch.stops)
+        status.state, status.why = ("stopped", "a stop") if status.stops else self.calm
         for inbox in self.ears:
             inbox.waiting.append(status)
             if inbox.handler:
@@ -67,12 +71,23 @@ def latch() -> Latch:
 
 
 @pytest.fixture
-def typed(clock: Clock, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Type:
+def heard() -> list[str]:
+    """Whoever is there, where the robot that is meant is not."""
+    return []
+
+
+@pytest.fixture
+def typed(
+    clock: Clock, heard: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> Type:
     """Type `zteleop stop` beside a robot, or beside none."""
     monkeypatch.setattr(verb, "person", lambda: "ann@desk")
+    monkeypatch.setattr(config, "own_name", lambda: "archangel")
+    monkeypatch.setattr(config, "load", lambda file: config.Config())
 
     def type_(latch: Latch | None, *arguments: str) -> tuple[int, str, str]:
-        monkeypatch.setattr(options, "join", lambda name, settings: Robot(clock, latch))
+        monkeypatch.setattr(options, "look_around", lambda name, settings, settle: Robot(clock, latch))
+        monkeypatch.setattr(presence, "robots", lambda session: ["archangel"] if latch else heard)
         code = run_verb("stop", "stop a robot", list(arguments))
         return code, *capsys.readouterr()
 
@@ -86,8 +101,7 @@ def test_a_stop_is_one_line_that_says_how_to_release_it(latch: Latch, typed: Typ
         "zteleop stop --release archangel lets it drive again, from neutral\n",
         "",
     )
-    assert latch.stop
-    assert (latch.stop.by, latch.stop.why) == ("ann@desk", "a cat")
+    assert [(stop.by, stop.why) for stop in latch.stops] == [("ann@desk", "a cat")]
 
 
 def test_a_release_is_one_line(latch: Latch, typed: Type) -> None:
@@ -97,7 +111,66 @@ def test_a_release_is_one_line(latch: Latch, typed: Type) -> None:
         "archangel may drive again, from neutral (acknowledged within 10 ms)\n",
         "",
     )
-    assert latch.stop is None
+    assert latch.stops == ()
+
+
+def test_a_stop_is_said_for_three_seconds_although_it_is_answered(
+    latch: Latch, typed: Type, clock: Clock
+) -> None:
+    before = clock.time
+    typed(latch, "archangel")
+    assert REPEAT <= clock.time - before < REPEAT + 0.1
+
+
+def test_the_stop_of_another_is_released_only_by_who_says_all(latch: Latch, typed: Type) -> None:
+    latch.obey(Stop(True, 7, "bob@sofa", "a child"))
+    code, out, error = typed(latch, "--release", "archangel")
+    assert (code, out) == (1, "")
+    assert error == (
+        "zteleop stop: archangel is stopped by bob@sofa (a child); each releases their own, "
+        "zteleop stop --release --all archangel everybody's\n"
+    )
+    assert typed(latch, "--release", "--all", "archangel")[0] == 0
+    assert latch.stops == ()
+
+
+def test_a_robot_nobody_has_is_told_with_those_there_are(typed: Type, heard: list[str]) -> None:
+    heard += ["archangel", "michael"]
+    code, _, error = typed(None, "gabriel")
+    assert code == 1
+    assert error.endswith("or run zteleop neutral on it; heard here: archangel, michael\n")
+
+
+@pytest.mark.parametrize(
+    ("words", "meant"),
+    [
+        ((), ["archangel", "michael"]),
+        (("--all",), ["archangel", "michael"]),
+        (("michael", "--all"), ["archangel", "michael"]),
+        (("michael",), ["michael"]),
+    ],
+)
+def test_of_several_robots_that_nobody_named_all_are_stopped_where_nobody_can_answer(
+    typed: Type, heard: list[str], monkeypatch: pytest.MonkeyPatch, words: tuple[str, ...], meant: list[str]
+) -> None:
+    heard += ["archangel", "michael"]
+    asked: list[list[str]] = []
+    monkeypatch.setattr(verb, "stop", lambda node, robots, why: asked.append(robots) or 0)
+    assert typed(None, *words)[0] == 0
+    assert asked == [meant]
+
+
+@pytest.mark.parametrize(
+    ("typed_answer", "meant"),
+    [("", ["archangel", "michael"]), ("michael", ["michael"]), ("?", ["archangel", "michael"])],
+)
+def test_somebody_at_a_terminal_is_asked_and_all_is_the_first_choice(
+    monkeypatch: pytest.MonkeyPatch, typed_answer: str, meant: list[str]
+) -> None:
+    for stream in (verb.sys.stdin, verb.sys.stdout):
+        monkeypatch.setattr(stream, "isatty", lambda: True, raising=False)
+    monkeypatch.setattr("builtins.input", lambda prompt: typed_answer)
+    assert verb._ask(["archangel", "michael"]) == meant
 
 
 def test_a_release_of_what_is_not_stopped_is_done_already(latch: Latch, typed: Type) -> None:
@@ -109,14 +182,14 @@ def test_a_stop_that_nobody_acknowledges_is_an_error_that_says_what_to_do(typed:
         1,
         "",
         "zteleop stop: archangel has not acknowledged the stop within 2 s: "
-        "cut its power, or run zteleop neutral on it\n",
+        "cut its power, or run zteleop neutral on it; no robot is heard here\n",
     )
 
 
 def test_a_release_of_a_robot_that_is_not_heard_is_an_error(typed: Type) -> None:
     code, out, error = typed(None, "--release")
     assert (code, out) == (1, "")
-    assert error == "zteleop stop: archangel is not heard, so nothing is released; is it on?\n"
+    assert error == "zteleop stop: archangel is not heard, so nothing is released; no robot is heard here\n"
 
 
 def test_the_first_word_leaves_before_anything_is_waited_for(clock: Clock) -> None:
@@ -126,10 +199,15 @@ def test_the_first_word_leaves_before_anything_is_waited_for(clock: Clock) -> No
         matched=False, publish=lambda said: order.append("said")
     )
     node.subscription = lambda *arguments: order.append("subscribed")
-    node.until = lambda look, seconds: order.append("waited")
-    with pytest.raises(OSError, match="asking"):
-        verb.stop(node)
-    assert order == ["said", "subscribed", "waited"]
+
+    def until(look: Callable[[], object], seconds: float) -> object:
+        order.append("waited")
+        raise BusError("enough")
+
+    node.until = until
+    with pytest.raises(BusError, match="enough"):
+        verb.stop(node, ["archangel", "michael"])
+    assert order == ["said", "said", "subscribed", "subscribed", "waited"]
 
 
 def test_what_a_stranger_says_cannot_steer_the_terminal(

@@ -13,7 +13,7 @@ from zteleop.control.mux import Source
 from zteleop.control.proof import LAPSE, Prover
 from zteleop.control.report import status
 from zteleop.control.servo import Servo
-from zteleop.messages import Pwm, Twist
+from zteleop.messages import Pwm, Stop, Twist
 
 
 def test_at_rest_every_channel_is_neutral() -> None:
@@ -181,10 +181,28 @@ def test_a_key_held_through_a_rest_moves_nothing_until_it_is_let_go_and_pressed_
     rested(robot, state, on=False)
     assert not moves(robot.step())
     assert not moves(robot.hold(FORWARD, 1.0))
-    assert robot.say(FORWARD) is Refusal.NOT_FROM_NEUTRAL
+    assert (
+        robot.say(FORWARD)
+        is {
+            "stopped": Refusal.BEFORE_RELEASE,
+            "fault": Refusal.BEFORE_REPAIR,
+            "starting": Refusal.NOT_FROM_NEUTRAL,
+        }[state]
+    ), "whoever is refused is told the reason that holds"
     robot.say(REST)
     robot.wait(0.02)
     assert moves(robot.hold(FORWARD, 0.2))
+
+
+def test_two_stops_hold_until_both_are_released() -> None:
+    robot = Robot()
+    for identity, by in ((7, "ann"), (8, "bob")):
+        robot.drive.stop(Stop(engaged=True, id=identity, by=by, why=""), robot.now)
+    assert robot.release(8)
+    assert robot.step().state == "stopped"
+    assert "bob" not in robot.step().why
+    assert robot.release(7)
+    assert robot.step().state == "idle"
 
 
 def test_a_key_pressed_while_at_rest_moves_nothing_afterwards() -> None:

@@ -315,7 +315,7 @@ def test_a_slow_planner_that_never_paused_does_not_begin_by_being_refused() -> N
     assert plan(robot) is Refusal.INTERRUPTED
     robot.release(7)
     robot.wait(0.3)
-    assert plan(robot) is Refusal.NOT_FROM_NEUTRAL
+    assert plan(robot) is Refusal.BEFORE_RELEASE
 
 
 PLANNER = Source(10, silence=0.5, trust="arrival")

@@ -24,7 +24,7 @@ def test_status_tells_who_what_and_why() -> None:
 def test_at_rest_nobody_is_told_of() -> None:
     robot = Robot()
     said = status(robot.drive, robot.step(), written=3.0)
-    assert (said.state, said.source, said.operator, said.seq, said.stop) == ("idle", "", "", 0, 0)
+    assert (said.state, said.source, said.operator, said.seq, said.stops) == ("idle", "", "", 0, [])
     assert said.wanted == said.applied == Twist.planar()
 
 
@@ -52,9 +52,9 @@ def test_status_names_the_stop_in_force_so_that_it_can_be_released() -> None:
     robot.stop(41)
     robot.stop(42)
     said = status(robot.drive, robot.step(), written=3.0)
-    assert (said.state, said.stop) == ("stopped", 42)
-    assert robot.release(said.stop)
-    assert status(robot.drive, robot.step(), written=3.0).stop == 0
+    assert (said.state, [stop.id for stop in said.stops]) == ("stopped", [42])
+    assert robot.release(42)
+    assert status(robot.drive, robot.step(), written=3.0).stops == []
 
 
 def test_a_vehicle_is_described_within_its_limits() -> None:

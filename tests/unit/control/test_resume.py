@@ -1,15 +1,17 @@
 import pytest
 
 from zteleop.control.gate import Refusal
-from zteleop.control.resume import AT_MOST_EVERY, Resume
-from zteleop.messages import DriveStatus, Refusals, Refused
+from zteleop.control.resume import AT_MOST_EVERY, NOT_BEGUN, Resume
+from zteleop.messages import DriveStatus, Refusals, Refused, Stop
 
 BEGAN_EARLIER = Refusal.NOT_FROM_NEUTRAL
 
 
 def status(released: int = 0, stop: int = 0, operator: str = "", state: str = "idle") -> DriveStatus:
     status = DriveStatus.zero()
-    status.released, status.stop, status.operator, status.state = released, stop, operator, state
+    status.released, status.operator, status.state = released, operator, state
+    if stop or state == "stopped":
+        status.stops = [Stop(True, stop, "ann", "")]
     return status
 
 
@@ -24,12 +26,12 @@ def resume() -> Resume:
     return resume
 
 
-@pytest.mark.parametrize("why", [Refusal.EARLIER_START, Refusal.NOT_FROM_NEUTRAL])
+@pytest.mark.parametrize("why", [Refusal.EARLIER_START, Refusal.NOT_FROM_NEUTRAL, Refusal.BEFORE_REPAIR])
 def test_after_a_restart_it_may(resume: Resume, why: str) -> None:
     assert resume.may(refused(why), 10.0)
 
 
-@pytest.mark.parametrize("why", [why for why in Refusal if "before" not in why] + ["something new"])
+@pytest.mark.parametrize("why", [why for why in Refusal if why not in NOT_BEGUN] + ["something new"])
 def test_for_any_other_reason_it_may_not(resume: Resume, why: str) -> None:
     assert not resume.may(refused(why), 10.0)
 

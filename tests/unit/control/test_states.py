@@ -252,16 +252,16 @@ def nobody_must_act(drive: Drive) -> None:
 
 
 def free_without_a_floor(drive: Drive) -> None:
-    drive.gate.begin_after = lambda now: None
+    drive.gate.begin_after = lambda now, why: None
 
 
 def any_release(drive: Drive) -> None:
     obey = drive.latch.obey
 
     def forget(said: Stop) -> bool:
-        if said.engaged or drive.latch.stop is None:
+        if said.engaged or not drive.latch.stops:
             return obey(said)
-        drive.latch.stop = None
+        drive.latch.forget([stop.id for stop in drive.latch.stops])
         return True
 
     drive.latch.obey = forget
@@ -316,8 +316,9 @@ def foreign_at_once(drive: Drive) -> None:
     drive._meet = meet_anew
 
 
+BEFORE_NEUTRAL = Refusal.NOT_FROM_NEUTRAL, Refusal.BEFORE_RELEASE, Refusal.BEFORE_REPAIR
 DEFECTS: dict[str, tuple[Sabotage, bool]] = {
-    "a claim may begin at any time": (lambda drive: lenient(Refusal.NOT_FROM_NEUTRAL, drive=drive), True),
+    "a claim may begin at any time": (lambda drive: lenient(*BEFORE_NEUTRAL, drive=drive), True),
     "a command may have any age": (lambda drive: lenient(Refusal.STALE, drive=drive), True),
     "a command may be of any epoch": (any_epoch, True),
     "a command may be repeated": (replays, False),  # within the age it has, and the grace

@@ -222,7 +222,8 @@ class World:
         self.held_back: list[Told] = []
         self.recent: deque[Told] = deque(maxlen=12)
         self.stops: deque[int] = deque(maxlen=5)
-        self.stop_in_force: Stop | None = None
+        self.in_force: dict[str, Stop] = {}
+        """The newest stop of each presser that nobody has released"""
         self.away = False
         """No drive steps: one was ended for being late, and another is about to take its place."""
         self.unsafe: str | None = None
@@ -258,11 +259,11 @@ class World:
         self.judge.hear_report(stand(self.drive, self.truth.since))
 
     def _keep_stop(self) -> None:
-        """Let a new drive know of the stop that is kept, and of no other."""
+        """Let a new drive know of the stops that are kept, and of no other."""
         self.stops.clear()
-        if self.stop_in_force:
-            self.drive.stop(self.stop_in_force, self.now)
-            self.stops.append(self.stop_in_force.id)
+        for stop in self.in_force.values():
+            self.drive.stop(stop, self.now)
+            self.stops.append(stop.id)
             self.truth.hold("stop", "stopped")
 
     def take_over(self) -> None:
@@ -360,7 +361,7 @@ class World:
             self.judge.receive(told.source, told.command, told.proof, due)
         if now - self._polled >= JUDGE_HEARS:
             self._polled = now
-            self.judge.rest(self.stop_in_force is not None, now)
+            self.judge.rest(bool(self.in_force), now)
         if now - self._looked >= JUDGE_LOOKS:
             self._looked = now
             if why := self.judge.look(step.pulse_us, now):
@@ -495,28 +496,28 @@ class World:
             return
         known = kind == "old"
         identity = self.random.choice(self.stops) if known else self.random.getrandbits(53)
-        said = Stop(engaged=True, id=identity, by="somebody", why="")
+        said = Stop(engaged=True, id=identity, by=self.random.choice(("ann", "bob")), why="")
         self.drive.stop(said, self.now)
         if not known:
             self.stops.append(identity)
-            self.stop_in_force = said
+            self.in_force[said.by] = said
             self.truth.hold("stop", "stopped")
 
     def _release(self, kind: str) -> None:
-        """Release the stop in force, or an older one, or one that never was."""
-        force = self.stop_in_force
-        if kind == "right" and not force:
+        """Release a stop in force, or an older one, or one that never was."""
+        in_force = list(self.in_force.values())
+        if kind == "right" and not in_force:
             return
-        identity = force.id if force else self.random.getrandbits(53)
+        identity = self.random.choice(in_force).id if in_force else self.random.getrandbits(53)
         if kind == "stale" and self.stops:
             identity = self.stops[0]
         elif kind == "wrong":
             identity = self.random.getrandbits(53)
         self.drive.stop(Stop(engaged=False, id=identity, by="", why=""), self.now)
-        if force and force.id == identity:
-            self.stop_in_force = None
+        self.in_force = {by: stop for by, stop in self.in_force.items() if stop.id != identity}
+        if in_force and not self.in_force:
             self.truth.free("stop", self.now)
-        elif force is None and identity not in self.stops:
+        elif not in_force and identity not in self.stops:
             self.truth.release_unheard(self.now)
 
     def _fault(self, on: bool) -> None:

@@ -19,7 +19,7 @@ def board(car: Vehicle, drive: str = "step", why: str = "obeying keyboard", note
     pulses = [Pulse("steering", 1, 0.5, 1500.0, 330)]
     rest = Twist.zero()
     status = DriveStatus(
-        "driving", why, "keyboard", "3fa2", rest, rest, pulses, 1, 0.0, 0, 0, 0, 3.0, 0.06, "", 0
+        "driving", why, "keyboard", "3fa2", rest, rest, pulses, 1, 0.0, [], "", 0, 0, 3.0, 0.06, "", 0
     )
     return Dashboard(
         "archangel", drive, Speeds(), car, pwm=Pwm(375, 370), status=status, odom=Odometry.zero(), note=note
@@ -156,7 +156,7 @@ def boards(draw) -> Dashboard:
     state = draw(st.sampled_from(["idle", "stopped"]))
     words = [draw(WORDS) for _ in range(3)]
     cap = draw(ANY), draw(ANY), draw(WORDS)
-    status = DriveStatus(state, *words, twist, twist, pulses, 0, 0.0, 0, 0, 0, *cap, 0)
+    status = DriveStatus(state, *words, twist, twist, pulses, 0, 0.0, [], "", 0, 0, *cap, 0)
     odom = Odometry.zero()
     odom.pose.pose.position.x, odom.pose.pose.orientation.z = draw(ANY), draw(ANY)
     return Dashboard(

@@ -191,24 +191,49 @@ class Chip:
 class Shelf:
     """A stop file without a file."""
 
-    def __init__(self, stop: Stop | None = None) -> None:
-        self.stop = stop
+    def __init__(self, *stops: Stop) -> None:
+        self.stops = list(stops)
         self.past = 0
+        self.unkept = ""
         self.full = self.stuck = False
         """Nothing more can be kept, or removed."""
 
+    @property
+    def stop(self) -> Stop | None:
+        return self.stops[-1] if self.stops else None
+
     def exists(self) -> bool:
-        return self.stop is not None
+        return bool(self.stops)
 
-    def load(self) -> Stop | None:
-        return self.stop
+    def load(self) -> list[Stop]:
+        return list(self.stops)
 
-    def keep(self, stop: Stop) -> None:
-        self.stop = self.stop if self.full else stop
+    def ids(self) -> frozenset[int]:
+        return frozenset(stop.id for stop in self.stops)
+
+    def promise(self, stops: Iterable[Stop]) -> None:
+        self.promised, self.unkept = list(stops), "they are being written"
+
+    def keep(self, stops: Iterable[Stop]) -> bool:
+        self.promise(stops)
+        self.tend()
+        return not self.unkept
+
+    def tend(self) -> None:
+        if self.unkept:
+            self.stops = self.stops if self.full else self.promised
+            self.unkept = "no space left" if self.full else ""
+
+    def add(self, stop: Stop) -> bool:
+        return self.keep([*self.stops, stop])
 
     def released(self) -> int:
         return self.past
 
-    def remove(self) -> bool:
-        self.stop = self.stop if self.stuck else None
+    def release(self, said: Stop, rest: Iterable[Stop]) -> bool:
+        self.stops = self.stops if self.stuck else list(rest)
         return not self.stuck
+
+    def remove(self) -> None:
+        """Do what somebody does by hand."""
+        self.stops = []

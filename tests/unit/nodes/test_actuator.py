@@ -16,6 +16,7 @@ from zteleop.nodes.actuator import (
     CHECK_EVERY,
     DESCRIBE_EVERY,
     IN_A_ROW,
+    KEEP_EVERY,
     PERIOD,
     TELL_EVERY,
     WATCHDOG_SILENCE,
@@ -41,7 +42,7 @@ class Link:
     """The watchdog at the other end: what it says, and whether it is still there."""
 
     def __init__(self) -> None:
-        self.words: Words | None = Words(None, None)
+        self.words: Words | None = Words(None)
         self.reports: list[Report] = []
 
     def fileno(self) -> int:
@@ -50,7 +51,7 @@ class Link:
     def read(self) -> Words:
         if self.words is None:
             raise DeviceError("the watchdog is gone")
-        words, self.words = self.words, Words(None, None)
+        words, self.words = self.words, Words(None)
         return words
 
     def report(self, report: Report) -> None:
@@ -103,7 +104,7 @@ class Robot:
         self.actuator.run()
         self.prover = Prover(7)
         self.tick()
-        self.hear(Words(hears, None))
+        self.hear(Words(hears))
         self.tick()
         self.chip.writes.clear()
         self.node.said["drive_status"].take()
@@ -139,7 +140,7 @@ class Robot:
         for _ in range(times):
             self.clock.pass_by(PERIOD)
             if watched:
-                self.hear(Words(None, None))
+                self.hear(Words(None))
             self.node.timers[PERIOD]()
 
 
@@ -190,7 +191,7 @@ def test_it_starts_only_when_the_watchdog_hears_it(node: Node, clock: Clock) -> 
     robot.say(PUSH)
     robot.tick()
     assert robot.chip.pulses == NEUTRAL
-    robot.hear(Words(True, None))
+    robot.hear(Words(True))
     robot.tick()
     assert robot.status.state == "idle"
 
@@ -198,7 +199,7 @@ def test_it_starts_only_when_the_watchdog_hears_it(node: Node, clock: Clock) -> 
 def test_what_was_begun_before_the_watchdog_heard_it_moves_nothing(node: Node, clock: Clock) -> None:
     robot = Robot(node, clock, hears=False)
     robot.say(PUSH)
-    robot.hear(Words(True, None))
+    robot.hear(Words(True))
     robot.tick()
     robot.say(PUSH)
     robot.tick()
@@ -208,19 +209,19 @@ def test_what_was_begun_before_the_watchdog_heard_it_moves_nothing(node: Node, c
 def test_a_watchdog_that_hears_no_longer_brings_rest(robot: Robot) -> None:
     robot.say(PUSH)
     assert robot.chip.pulses != NEUTRAL
-    robot.hear(Words(False, None))
+    robot.hear(Words(False))
     robot.tick()
     assert (robot.status.state, robot.chip.pulses) == ("link lost", NEUTRAL)
 
 
 def test_whoever_drove_before_the_watchdog_was_deaf_for_a_moment_drives_on(robot: Robot) -> None:
     robot.say(PUSH)
-    robot.hear(Words(False, None))
+    robot.hear(Words(False))
     for _ in range(60):
         robot.say(PUSH)
         robot.tick()
         assert robot.chip.pulses == NEUTRAL
-    robot.hear(Words(True, None))
+    robot.hear(Words(True))
     robot.tick()
     robot.say(PUSH)
     assert robot.chip.pulses != NEUTRAL
@@ -228,11 +229,11 @@ def test_whoever_drove_before_the_watchdog_was_deaf_for_a_moment_drives_on(robot
 
 def test_whoever_drove_before_it_was_deaf_for_long_begins_anew(robot: Robot) -> None:
     robot.say(PUSH)
-    robot.hear(Words(False, None))
+    robot.hear(Words(False))
     for _ in range(101):
         robot.say(PUSH)
         robot.tick()
-    robot.hear(Words(True, None))
+    robot.hear(Words(True))
     for _ in range(10):
         robot.tick()
         robot.say(PUSH)
@@ -268,7 +269,7 @@ def test_one_in_anothers_place_goes_on_with_the_next_act_and_arms_nothing(node: 
         "link lost",
         "the watchdog does not hear this robot on the bus",
     )
-    robot.hear(Words(True, None))
+    robot.hear(Words(True))
     robot.tick()
     assert robot.status.why.endswith("; keyboard goes on with its next act")
     robot.prover = prover
@@ -295,7 +296,7 @@ def test_one_that_nobody_watches_ends_with_a_code_of_its_own(robot: Robot) -> No
 def test_a_stop_that_was_kept_holds_from_the_start(node: Node, clock: Clock) -> None:
     robot = Robot(node, clock, shelf=Shelf(KEPT))
     robot.say(PUSH)
-    assert (robot.status.state, robot.status.stop) == ("stopped", 5)
+    assert (robot.status.state, robot.status.stops) == ("stopped", [KEPT])
     assert "stopped by ann: a child on the track" in robot.status.why
     assert robot.chip.pulses == NEUTRAL
 
@@ -303,10 +304,10 @@ def test_a_stop_that_was_kept_holds_from_the_start(node: Node, clock: Clock) -> 
 def test_a_stop_is_on_the_chip_before_it_is_on_the_disk(robot: Robot) -> None:
     robot.say(PUSH)
     kept: list[object] = []
-    robot.shelf.keep = lambda stop: kept.append((stop, dict(robot.chip.pulses)))
+    robot.shelf.tend = lambda: kept.append((robot.shelf.promised, dict(robot.chip.pulses)))
     robot.stop(KEPT)
-    assert kept == [(KEPT, NEUTRAL)]
-    assert (robot.status.state, robot.status.stop) == ("stopped", 5)
+    assert kept == [([KEPT], NEUTRAL)]
+    assert (robot.status.state, robot.status.stops) == ("stopped", [KEPT])
     assert robot.journal.events[-1] == ("stop", {"by": "ann", "why": "a child on the track", "id": 5})
 
 
@@ -314,9 +315,9 @@ def test_only_a_release_that_names_the_stop_frees_the_robot_for_what_begins_then
     robot.say(PUSH)
     robot.stop(KEPT)
     robot.stop(Stop(engaged=False, id=6, by="bob", why=""))
-    assert robot.status.stop == robot.shelf.stop.id == 5
+    assert robot.status.stops == robot.shelf.stops == [KEPT]
     robot.stop(Stop(engaged=False, id=5, by="bob", why=""))
-    assert (robot.status.state, robot.status.stop, robot.shelf.stop) == ("idle", 0, None)
+    assert (robot.status.state, robot.status.stops, robot.shelf.stops) == ("idle", [], [])
     assert robot.journal.events[-1][0] == "release"
     robot.say(PUSH)
     assert robot.chip.pulses == NEUTRAL
@@ -333,6 +334,37 @@ def test_a_stop_whose_file_stays_is_not_released(robot: Robot) -> None:
     assert robot.status.state == "stopped"
 
 
+def test_of_two_stops_each_is_kept_until_its_own_release(robot: Robot) -> None:
+    bobs = Stop(engaged=True, id=6, by="bob", why="")
+    for said in (KEPT, bobs):
+        robot.stop(said)
+    assert robot.status.stops == robot.shelf.stops == [KEPT, bobs]
+    robot.stop(Stop(engaged=False, id=6, by="bob", why=""))
+    assert (robot.status.state, robot.shelf.stops) == ("stopped", [KEPT])
+    assert "bob" not in robot.status.why
+    robot.stop(Stop(engaged=False, id=5, by="ann", why=""))
+    assert (robot.status.state, robot.shelf.stops) == ("idle", [])
+
+
+def test_a_stop_that_cannot_be_kept_is_tried_again_each_second_and_told(robot: Robot) -> None:
+    robot.shelf.full = True
+    robot.stop(KEPT)
+    first = robot.node.said["drive_status"].messages[0]
+    assert (first.stops, first.unkept) == ([KEPT], "they are being written")
+    assert (robot.status.unkept, robot.shelf.stops) == ("no space left", [])
+    robot.shelf.full = False
+    robot.node.timers[KEEP_EVERY]()
+    assert (robot.status.unkept, robot.shelf.stops) == ("", [KEPT])
+
+
+def test_whoever_held_on_through_a_stop_is_told_of_its_release(robot: Robot) -> None:
+    robot.say(PUSH)
+    robot.stop(KEPT)
+    robot.stop(Stop(engaged=False, id=5, by="ann", why=""))
+    robot.say(PUSH)
+    assert "before the stop was released" in robot.node.warnings[-1]
+
+
 def test_a_late_repeat_of_a_stop_that_was_released_changes_nothing(robot: Robot) -> None:
     for said in (KEPT, Stop(engaged=False, id=5, by="bob", why=""), KEPT):
         robot.stop(said)
@@ -341,7 +373,7 @@ def test_a_late_repeat_of_a_stop_that_was_released_changes_nothing(robot: Robot)
 
 def test_it_obeys_and_keeps_the_watchdogs_stop(robot: Robot) -> None:
     robot.say(PUSH)
-    robot.hear(Words(None, KEPT))
+    robot.hear(Words(None, (KEPT,)))
     assert (robot.status.state, robot.chip.pulses) == ("stopped", NEUTRAL)
     assert robot.shelf.stop == KEPT
 

@@ -48,7 +48,7 @@ def test_a_report_arrives_as_it_was_said(ends: Ends) -> None:
 
 def test_nothing_said_is_nothing_and_no_end(ends: Ends) -> None:
     assert ends.dog.read() is None
-    assert ends.actuator.read() == Words(None, None)
+    assert ends.actuator.read() == Words(None)
 
 
 def test_of_several_reports_the_newest_counts(ends: Ends) -> None:
@@ -86,7 +86,7 @@ def test_a_frozen_watchdog_neither_blocks_nor_tears_what_it_reads_later(ends: En
 def test_a_frozen_actuator_never_blocks_the_watchdog(ends: Ends) -> None:
     for _ in range(MORE_THAN_FITS):
         ends.dog.say(HEARS)
-    assert ends.actuator.read() == Words(True, None)
+    assert ends.actuator.read() == Words(True)
 
 
 @pytest.mark.parametrize(("word", "hears"), [(HEARS, True), (DEAF, False)])
@@ -94,16 +94,23 @@ def test_the_last_word_counts_and_no_stop_is_lost_among_them(ends: Ends, word: b
     ends.dog.say(DEAF)
     ends.dog.stop(STOPPED)
     ends.dog.say(word)
-    assert ends.actuator.read() == Words(hears, STOPPED)
+    assert ends.actuator.read() == Words(hears, (STOPPED,))
+
+
+def test_every_stop_of_several_arrives(ends: Ends) -> None:
+    stops = tuple(Stop(True, number, "ann", "x" * 200) for number in range(5))
+    for stop in stops:
+        ends.dog.stop(stop)
+    assert ends.actuator.read() == Words(None, stops)
 
 
 @pytest.mark.parametrize("first", range(1, 12))
 def test_a_stop_that_arrives_in_pieces_is_one_stop(ends: Ends, first: int) -> None:
     said = b"s" + len(TEXT).to_bytes(2, "little") + TEXT
     ends.dog._send(said[:first])
-    assert ends.actuator.read() == Words(None, None)
+    assert ends.actuator.read() == Words(None)
     ends.dog._send(said[first:] + HEARS)
-    assert ends.actuator.read() == Words(True, STOPPED)
+    assert ends.actuator.read() == Words(True, (STOPPED,))
 
 
 def test_the_actuators_end_is_noticed_after_its_last_report(ends: Ends) -> None:

@@ -9,6 +9,7 @@ from zteleop.control.proof import Proof, Prover
 from zteleop.control.standing import Standing
 from zteleop.messages import Beat, Message, Pwm, Stop, String
 from zteleop.nodes.overhear import DEAF_AFTER, Overhearing
+from zteleop.nodes.stop_file import UNREADABLE
 
 PERIOD = 0.02
 PUSH = Pwm(390, 370)
@@ -80,7 +81,7 @@ def test_what_commands_nothing_or_proves_nothing_permits_nothing(room: Room) -> 
 def test_a_stop_that_is_kept_is_left_to_the_actuator(room: Room) -> None:
     room.hear("stop", STOP)
     room.listen()
-    room.shelf.keep(STOP)
+    room.shelf.add(STOP)
     assert room.listen(2.0) is None
     assert room.judge.stopped
 
@@ -105,7 +106,7 @@ def test_a_stop_that_is_repeated_is_asked_for_since_the_first_time(room: Room) -
 
 def test_late_repeats_of_a_stop_that_is_over_stop_nothing(room: Room) -> None:
     room.hear("stop", STOP)
-    room.shelf.keep(STOP)
+    room.shelf.add(STOP)
     room.listen()
     room.shelf.remove()
     room.hear("stop", STOP)
@@ -121,6 +122,49 @@ def test_a_stop_that_is_released_before_it_was_seen_in_the_file_was_not_ignored(
     assert not room.judge.stopped
 
 
+def test_of_two_stops_in_the_file_the_one_that_is_ignored_comes_back(room: Room) -> None:
+    room.shelf.add(STOP)
+    room.listen(0.1)
+    other = Stop(engaged=True, id=6, by="bob", why="")
+    room.hear("stop", other)
+    assert room.listen(1.0) == other
+
+
+def test_what_leaves_the_file_is_over_and_what_stays_is_not(room: Room) -> None:
+    other = Stop(engaged=True, id=6, by="bob", why="")
+    for said in (STOP, other):
+        room.hear("stop", said)
+        room.shelf.add(said)
+    room.listen(0.1)
+    room.shelf.keep([other])
+    room.listen(0.1)
+    assert room.ears.stops == (other,)
+    assert room.judge.stopped
+    room.shelf.remove()
+    room.listen(0.1)
+    assert room.ears.stops == ()
+    assert not room.judge.stopped
+
+
+def test_a_file_that_cannot_be_read_for_a_moment_ends_no_stop(room: Room) -> None:
+    room.hear("stop", STOP)
+    room.shelf.add(STOP)
+    room.listen(0.1)
+    for content in ([Stop(engaged=True, id=UNREADABLE, by="nobody known", why="")], [STOP]):
+        room.shelf.stops = content
+        assert room.listen(0.5) is None
+        assert room.ears.stops == (STOP,)
+    room.shelf.remove()
+    room.listen(0.1)
+    assert room.ears.stops == ()
+
+
+def test_stops_that_were_kept_are_known_from_the_beginning() -> None:
+    shelf = Shelf(STOP)
+    judge = Judge(DriveSettings(), 4.08, 100.0)
+    assert Overhearing(Node(), DriveSettings(), judge, shelf).stops == (STOP,)
+
+
 def test_another_stop_is_not_released_by_the_name_of_the_first(room: Room) -> None:
     other = Stop(engaged=True, id=6, by="bob", why="")
     for said in (STOP, other, RELEASE):
@@ -132,7 +176,7 @@ def test_a_stop_said_by_hand_counts_each_time(room: Room) -> None:
     """Its id is 0, as somebody types it who knows of none."""
     by_hand, release = (Stop(engaged=on, id=0, by="", why="") for on in (True, False))
     room.hear("stop", by_hand)
-    room.shelf.keep(by_hand)
+    room.shelf.add(by_hand)
     room.listen()
     room.shelf.remove()
     room.hear("stop", release)
@@ -142,7 +186,7 @@ def test_a_stop_said_by_hand_counts_each_time(room: Room) -> None:
 
 
 def test_after_a_stop_only_what_begins_anew_is_allowed(room: Room) -> None:
-    room.shelf.keep(STOP)
+    room.shelf.add(STOP)
     room.push()
     room.listen(GRACE + 0.1)
     room.push()

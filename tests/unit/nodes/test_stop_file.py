@@ -4,13 +4,16 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
+import msgspec
 import pytest
 
 from zteleop.messages import Stop
 from zteleop.nodes import stop_file as module
-from zteleop.nodes.stop_file import StopFile
+from zteleop.nodes.stop_file import UNREADABLE, StopFile
 
-STOP = Stop(engaged=True, id=2**53 - 1, by="ann", why="a child on the track")
+STOP = Stop(engaged=True, id=2**53 - 3, by="ann", why="a child on the track")
+BOBS = Stop(engaged=True, id=3, by="bob", why="")
+CARLS = Stop(engaged=True, id=4, by="carl", why="")
 
 
 class Thread:
@@ -50,26 +53,76 @@ def refusing(number: int) -> Any:
 
 
 def test_without_a_file_the_robot_is_not_stopped(file: StopFile) -> None:
-    assert (file.exists(), file.load()) == (False, None)
+    assert (file.exists(), file.load(), file.ids()) == (False, [], frozenset())
 
 
 def test_a_stop_is_kept_for_every_later_process(file: StopFile) -> None:
-    file.keep(STOP)
+    assert file.keep([STOP])
     assert file.exists()
-    assert StopFile(file.path, print).load() == STOP
+    assert StopFile(file.path, print).load() == [STOP]
 
 
-def test_the_newest_stop_is_the_one_kept(file: StopFile) -> None:
-    file.keep(STOP)
-    file.keep(Stop(engaged=True, id=3, by="bob", why=""))
-    assert file.load().id == 3
+def test_every_stop_is_kept_and_one_more_beside_what_another_process_kept(file: StopFile) -> None:
+    file.keep([STOP, BOBS])
+    another = StopFile(file.path, print)
+    assert another.add(CARLS)
+    assert file.load() == [STOP, BOBS, CARLS]
+    newer = Stop(engaged=True, id=8, by="bob", why="")
+    another.add(newer)
+    assert file.load() == [STOP, CARLS, newer]
 
 
-def test_a_stop_removed_is_gone_and_may_be_removed_twice(file: StopFile, warnings: list[str]) -> None:
-    file.keep(STOP)
-    assert file.remove()
-    assert file.load() is None
-    assert file.remove()
+def test_a_crowd_of_stops_with_long_reasons_is_read_as_it_was_kept(file: StopFile) -> None:
+    crowd = [Stop(engaged=True, id=number, by="\u00e4" * 200, why="\u6f22" * 200) for number in range(65)]
+    file.keep(crowd)
+    assert file.load() == crowd
+
+
+def test_a_stop_of_an_older_robot_is_read(file: StopFile) -> None:
+    file.path.parent.mkdir(parents=True)
+    file.path.write_bytes(msgspec.json.encode(STOP))
+    assert file.load() == [STOP]
+
+
+def test_a_look_costs_a_read_only_when_something_changed(
+    file: StopFile, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file.keep([STOP])
+    assert file.ids() == {STOP.id}
+    with monkeypatch.context() as patch:
+        patch.setattr(module, "_read", refusing(errno.EIO))
+        assert file.ids() == {STOP.id}
+    file.keep([STOP, BOBS])
+    assert file.ids() == {STOP.id, BOBS.id}
+    file.release(STOP, [BOBS])
+    assert file.ids() == {BOBS.id}
+    file.release(BOBS, [])
+    assert file.ids() == frozenset()
+
+
+def test_what_cannot_be_kept_is_said_once_and_tried_again(
+    file: StopFile, warnings: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file.promise([STOP])
+    assert (file.unkept, file.exists()) == ("they are being written", False)
+    with monkeypatch.context() as patch:
+        patch.setattr(module, "_write", refusing(errno.EROFS))
+        for _ in range(3):
+            file.tend()
+    assert file.unkept == f"{file.path}: {os.strerror(errno.EROFS)}"
+    assert len(warnings) == 1
+    file.tend()
+    assert (file.unkept, file.load()) == ("", [STOP])
+    file.path.unlink()
+    file.tend()
+    assert not file.exists(), "what was kept is not kept again when somebody takes it away"
+
+
+def test_a_stop_released_is_gone_and_may_be_released_twice(file: StopFile, warnings: list[str]) -> None:
+    file.keep([STOP])
+    assert file.release(STOP, [])
+    assert file.load() == []
+    assert file.release(STOP, [])
     assert warnings == []
 
 
@@ -80,8 +133,8 @@ def test_the_disk_is_waited_for_elsewhere(
     monkeypatch.setattr(
         module.os, "fsync", lambda number: synced.append(os.readlink(f"/proc/self/fd/{number}"))
     )
-    file.keep(STOP)
-    file.remove()
+    file.keep([STOP])
+    file.release(STOP, [])
     assert synced == []
     assert all(thread.daemon for thread in threads)
     threads[1].run()
@@ -94,9 +147,9 @@ def test_a_disk_that_does_not_sync_says_nothing(
     file: StopFile, threads: list[Thread], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(module.os, "fsync", refusing(errno.EIO))
-    file.keep(STOP)
+    file.keep([STOP])
     threads[0].run()
-    assert file.load() == STOP
+    assert file.load() == [STOP]
 
 
 @pytest.mark.parametrize(
@@ -116,26 +169,26 @@ def test_a_disk_that_does_not_sync_says_nothing(
 def test_whatever_stands_in_the_file_means_stopped(file: StopFile, content: bytes) -> None:
     file.path.parent.mkdir(parents=True)
     file.path.write_bytes(content)
-    stop = file.load()
+    (stop,) = file.load()
     assert file.exists()
-    assert stop
+    assert file.ids() == {stop.id} == {UNREADABLE}
     assert (stop.engaged, stop.by) == (True, "nobody known")
     assert stop.why.endswith("stop is there and cannot be read")
     assert 0 <= stop.id < 2**53
 
 
 def test_a_released_stop_in_the_file_still_means_stopped(file: StopFile) -> None:
-    file.keep(Stop(engaged=False, id=4, by="bob", why=""))
-    assert file.load() == Stop(engaged=True, id=4, by="bob", why="")
+    file.keep([Stop(engaged=False, id=4, by="bob", why="")])
+    assert file.load() == [Stop(engaged=True, id=4, by="bob", why="")]
 
 
 def test_a_folder_in_its_place_means_stopped_and_stays(file: StopFile, warnings: list[str]) -> None:
     file.path.mkdir(parents=True)
     assert file.exists()
-    assert file.load().by == "nobody known"
-    file.keep(STOP)
+    assert file.load()[0].by == "nobody known"
+    file.keep([STOP])
     assert "the stop holds, but not across a restart" in warnings[0]
-    assert not file.remove()
+    assert not file.release(STOP, [])
     assert "the stop cannot be released" in warnings[1]
     assert "remove it by hand" in warnings[1]
     assert file.exists()
@@ -145,7 +198,7 @@ def test_a_link_to_itself_means_stopped(file: StopFile) -> None:
     file.path.parent.mkdir(parents=True)
     file.path.symlink_to(file.path)
     assert file.exists()
-    assert file.load().by == "nobody known"
+    assert file.load()[0].by == "nobody known"
 
 
 @pytest.mark.parametrize("number", [errno.EACCES, errno.EIO, errno.ELOOP, errno.ENAMETOOLONG])
@@ -155,16 +208,16 @@ def test_a_file_that_cannot_be_looked_at_means_stopped(
     monkeypatch.setattr(module.os, "stat", refusing(number))
     monkeypatch.setattr(module, "_read", refusing(number))
     assert file.exists()
-    assert file.load().engaged
+    assert file.load()[0].engaged
 
 
 @pytest.mark.parametrize("number", [errno.EACCES, errno.EIO, errno.ENOENT])
 def test_a_file_that_cannot_be_read_means_stopped(
     file: StopFile, number: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    file.keep(STOP)
+    file.keep([STOP])
     monkeypatch.setattr(module, "_read", refusing(number))
-    assert file.load().by == "nobody known"
+    assert file.load()[0].by == "nobody known"
 
 
 @pytest.mark.parametrize("number", [errno.EROFS, errno.EACCES, errno.ENOSPC])
@@ -176,7 +229,7 @@ def test_what_cannot_be_kept_is_said_and_raises_nothing(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(module, "_write", refusing(number))
-    file.keep(STOP)
+    file.keep([STOP])
     assert warnings == [f"the stop holds, but not across a restart: {file.path}: {os.strerror(number)}"]
     assert threads == []
 
@@ -189,19 +242,19 @@ def test_a_full_disk_leaves_a_file_that_means_stopped(
         refusing(errno.ENOSPC)()
 
     monkeypatch.setattr(module, "_write", open_only)
-    file.keep(STOP)
-    assert file.load().engaged
+    file.keep([STOP])
+    assert file.load()[0].engaged
 
 
 @pytest.mark.parametrize("number", [errno.EROFS, errno.EACCES])
 def test_a_file_that_cannot_be_removed_keeps_the_robot_stopped(
     file: StopFile, number: int, warnings: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    file.keep(STOP)
+    file.keep([STOP])
     monkeypatch.setattr(Path, "unlink", refusing(number))
-    assert not file.remove()
+    assert not file.release(STOP, [])
     assert warnings == [f"the stop cannot be released: {file.path}: {os.strerror(number)}; remove it by hand"]
-    assert file.load() == STOP
+    assert file.load() == [STOP]
 
 
 def test_a_pipe_in_the_files_place_means_stopped_and_is_not_waited_for(
@@ -209,33 +262,41 @@ def test_a_pipe_in_the_files_place_means_stopped_and_is_not_waited_for(
 ) -> None:
     file.path.parent.mkdir(parents=True)
     os.mkfifo(file.path)
-    assert file.load().by == "nobody known"
-    file.keep(STOP)
+    assert file.load()[0].by == "nobody known"
+    file.keep([STOP])
     assert "the stop holds, but not across a restart" in warnings[0]
 
 
 def test_the_last_stop_released_is_known_to_every_later_process(file: StopFile) -> None:
     assert file.released() == 0
-    file.keep(STOP)
+    file.keep([STOP])
     assert file.released() == 0
-    file.remove()
+    file.release(STOP, [])
     assert StopFile(file.path, print).released() == STOP.id
-    assert file.remove()
+    assert file.release(STOP, [])
     assert file.released() == STOP.id
 
 
 @pytest.mark.parametrize("content", [b"", b"\xff", b'{"engaged": true}', b"null"])
-def test_a_released_stop_that_cannot_be_read_was_one(file: StopFile, content: bytes) -> None:
+def test_a_stop_that_cannot_be_read_can_be_released(file: StopFile, content: bytes) -> None:
     file.path.parent.mkdir(parents=True)
     file.path.write_bytes(content)
-    assert file.remove()
+    (stop,) = file.load()
+    assert file.release(stop, [])
+    assert file.released() == UNREADABLE
+
+
+@pytest.mark.parametrize("content", [b"", b"\xff", b'{"engaged": true}', b"null"])
+def test_a_past_that_cannot_be_read_was_one(file: StopFile, content: bytes) -> None:
+    file.keep([STOP])
+    file.path.with_name("stop.released").write_bytes(content)
     assert file.released() == 1
 
 
 def test_where_the_past_cannot_be_kept_a_stop_is_released_all_the_same(
     file: StopFile, monkeypatch: pytest.MonkeyPatch, warnings: list[str]
 ) -> None:
-    file.keep(STOP)
+    file.keep([STOP])
     monkeypatch.setattr(module, "_write", refusing(errno.ENOSPC))
-    assert file.remove()
+    assert file.release(STOP, [])
     assert (file.exists(), file.released(), warnings) == (False, 0, [])

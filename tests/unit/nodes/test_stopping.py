@@ -3,9 +3,9 @@ import getpass
 import pytest
 from unit.nodes.fakes import Node, Said
 
-from zteleop.control.stop import Latch
+from zteleop.control.stop import MERGED, Latch
 from zteleop.messages import DriveStatus, Stop
-from zteleop.nodes.stopping import EVERY, PATIENCE, Stopping, person
+from zteleop.nodes.stopping import EVERY, PATIENCE, REPEAT, SETTLED, Stopping, person
 
 TICK = 0.01
 
@@ -14,13 +14,16 @@ def idle() -> DriveStatus:
     return shows("idle")
 
 
-def stopped(stop: int, why: str = "") -> DriveStatus:
-    return shows("stopped", stop, why)
+def stopped(*stops: int, why: str = "", by: str = "the watchdog") -> DriveStatus:
+    """Return what a robot shows that these stops keep at rest, each pressed by nobody's name."""
+    return shows(
+        "stopped", *(Stop(True, stop, f"{by}{n or ''}", "") for n, stop in enumerate(stops)), why=why
+    )
 
 
-def shows(state: str, stop: int = 0, why: str = "") -> DriveStatus:
+def shows(state: str, *stops: Stop, why: str = "", unkept: str = "") -> DriveStatus:
     status = DriveStatus.zero()
-    status.state, status.stop, status.why = state, stop, why
+    status.state, status.stops, status.why, status.unkept = state, list(stops), why, unkept
     return status
 
 
@@ -72,8 +75,36 @@ def test_a_stop_is_said_at_once_and_twenty_times_a_second_until_it_is_shown(aske
     assert asker.stopping.state == "pending"
     assert asker.heed(stopped(stop.id))
     assert asker.outcome == ("done", "archangel is stopped (acknowledged within 1010 ms)")
+
+
+def test_a_stop_is_said_for_three_seconds_also_after_the_answer(asker: Asker) -> None:
+    stop = asker.engage()
+    asker.heed(stopped(stop.id))
+    assert asker.stopping.state == "done"
+    asker.wait(REPEAT - 0.1, stopped(stop.id))
+    assert asker.stopping.repeats(asker.now)
     asker.wait(1.0, stopped(stop.id))
+    assert not asker.stopping.repeats(asker.now)
+    assert len(asker.said.take()) == pytest.approx(REPEAT / EVERY, abs=2)
+
+
+def test_a_stop_that_somebody_released_is_said_no_more(asker: Asker) -> None:
+    stop = asker.engage()
+    asker.heed(stopped(stop.id, 7))
+    asker.heed(stopped(7))
+    assert not asker.stopping.repeats(asker.now)
+    asker.said.take()
+    asker.wait(1.0, stopped(7))
     assert asker.said.messages == []
+
+
+def test_a_stop_that_the_disk_does_not_take_is_told_to_who_presses(asker: Asker) -> None:
+    stop = asker.engage()
+    ours, full = Stop(True, stop.id, "ann@desk", ""), "/var/stop: No space left on device"
+    assert not asker.heed(shows("stopped", ours, unkept="they are being written"))
+    asker.wait(SETTLED, shows("stopped", ours, unkept=full))
+    assert asker.stopping.state == "done"
+    assert asker.stopping.words.endswith(f", but only until it restarts: {full}")
 
 
 def test_a_lost_acknowledgement_is_asked_for_again(asker: Asker) -> None:
@@ -100,6 +131,8 @@ def test_a_stop_that_nobody_acknowledges_says_what_to_do(asker: Asker) -> None:
         "archangel has not acknowledged the stop within 2 s: cut its power, or run zteleop neutral on it",
     )
     assert asker.stopping.unanswered
+    assert asker.stopping.repeats(asker.now)
+    asker.wait(REPEAT - PATIENCE)
     asker.said.take()
     asker.wait(1.0)
     assert asker.said.messages == []
@@ -116,12 +149,19 @@ def test_an_answer_that_comes_late_is_an_answer(asker: Asker) -> None:
     assert asker.outcome == ("done", "archangel is stopped (acknowledged late)")
 
 
-def test_anothers_stop_that_came_later_is_one_as_well(asker: Asker) -> None:
+def test_anothers_stop_that_came_later_is_not_ours(asker: Asker) -> None:
     asker.heed(idle())
     stop = asker.engage()
-    assert asker.heed(stopped(stop.id ^ 1))
+    assert not asker.heed(stopped(7))
+    assert asker.heed(stopped(7, stop.id))
     assert asker.stopping.state == "done"
-    assert "by somebody else as well" in asker.stopping.words
+
+
+@pytest.mark.parametrize("instead", [Stop(True, 9, "ann@desk", "pressed elsewhere"), MERGED])
+def test_what_takes_the_place_of_ours_acknowledges_it(asker: Asker, instead: Stop) -> None:
+    asker.engage()
+    assert asker.heed(shows("stopped", instead))
+    assert asker.stopping.state == "done"
 
 
 @pytest.mark.parametrize("seen_before", [True, False])
@@ -137,11 +177,12 @@ def test_anothers_earlier_stop_is_no_acknowledgement_of_ours(asker: Asker, seen_
     assert asker.stopping.state == "done"
 
 
-def test_a_robot_that_shows_but_an_earlier_stop_is_stopped_all_the_same(asker: Asker) -> None:
+def test_a_robot_that_shows_but_an_earlier_stop_has_not_acknowledged_ours(asker: Asker) -> None:
+    """It rests, but only until the other is released."""
     asker.engage()
-    asker.wait(3.0, stopped(7, "stopped by bob"))
-    assert asker.stopping.state == "done"
-    assert asker.stopping.words.endswith("which it has not acknowledged: stopped by bob")
+    asker.wait(PATIENCE + 0.1, stopped(7, by="bob"))
+    assert asker.stopping.unanswered
+    assert "within 2 s, and rests only by that of bob: cut its power" in asker.stopping.words
 
 
 def test_a_robot_seen_stopped_long_ago_and_unheard_now_has_not_acknowledged(asker: Asker) -> None:
@@ -178,10 +219,42 @@ def test_a_stop_said_by_hand_has_no_number_and_can_be_released(asker: Asker) -> 
     assert asker.stopping.state == "done"
 
 
+def test_a_release_ends_ones_own_stop_and_says_whose_are_left(asker: Asker) -> None:
+    mine, bobs = Stop(True, 7, "ann@desk", ""), Stop(True, 8, "bob@sofa", "a child")
+    asker.release(shows("stopped", bobs, mine))
+    assert asker.said.take() == [Stop(False, 7, "ann@desk", "")]
+    assert asker.heed(shows("stopped", bobs))
+    assert asker.outcome == (
+        "done",
+        "yours is released, but archangel is stopped by bob@sofa (a child); each releases their own, "
+        "zteleop stop --release --all archangel everybody's",
+    )
+
+
+def test_a_stop_of_another_person_is_not_ones_own_to_release(asker: Asker) -> None:
+    asker.release(shows("stopped", Stop(True, 8, "bob@sofa", ""), MERGED))
+    assert asker.said.messages == []
+    assert asker.outcome == (
+        "failed",
+        "archangel is stopped by bob@sofa and others (more than 64 people press stop); each releases their "
+        "own, zteleop stop --release --all archangel everybody's",
+    )
+    assert not asker.stopping.unanswered
+
+
+def test_everybodys_stops_are_released_by_who_says_so(asker: Asker) -> None:
+    stops = [Stop(True, 7, "ann@desk", ""), Stop(True, 8, "bob@sofa", ""), MERGED]
+    asker.stopping.release(shows("stopped", *stops), asker.now, everybodys=True)
+    assert [said.id for said in asker.said.take()] == [stop.id for stop in stops]
+    assert not asker.heed(shows("stopped", MERGED))
+    assert asker.heed(idle())
+    assert asker.stopping.state == "done"
+
+
 def test_a_release_never_touches_a_newer_stop(asker: Asker) -> None:
     asker.release(stopped(7))
     asker.said.take()
-    assert asker.heed(stopped(8, "stopped by bob"))
+    assert asker.heed(stopped(8, why="stopped by bob"))
     assert asker.outcome == ("failed", "archangel was stopped anew meanwhile: stopped by bob")
     asker.wait(1.0, stopped(8))
     assert asker.said.messages == []
@@ -214,7 +287,7 @@ def test_what_is_not_stopped_needs_no_release(asker: Asker) -> None:
 def test_a_robot_that_is_not_heard_is_not_released(asker: Asker) -> None:
     asker.release(None)
     asker.wait(1.0, stopped(7))
-    assert asker.outcome == ("failed", "archangel is not heard, so nothing is released; is it on?")
+    assert asker.outcome == ("failed", "archangel is not heard, so nothing is released")
     assert asker.said.messages == []
 
 
@@ -256,7 +329,7 @@ def test_it_talks_with_the_rule_of_the_robot(node: Node) -> None:
     latch = Latch()
 
     def status() -> DriveStatus:
-        return stopped(latch.stop.id) if latch.stop else idle()
+        return shows("stopped", *latch.stops) if latch.stops else idle()
 
     def talk(asker: Asker, other: Asker) -> None:
         for turn in range(300):
@@ -271,10 +344,11 @@ def test_it_talks_with_the_rule_of_the_robot(node: Node) -> None:
     bob.engage()
     talk(bob, ann)
     assert ann.stopping.state == bob.stopping.state == "done"
-    ann.release(status())
-    talk(ann, bob)
-    assert ann.stopping.state == "done"
-    assert latch.stop is None
+    for asker, other, left in ((bob, ann, 1), (ann, bob, 0)):
+        asker.release(status())
+        talk(asker, other)
+        assert asker.stopping.state == "done"
+        assert len(latch.stops) == left
 
 
 def test_a_person_is_user_and_host(monkeypatch: pytest.MonkeyPatch) -> None:

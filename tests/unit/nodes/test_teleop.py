@@ -8,8 +8,8 @@ from zteleop.control.report import describe
 from zteleop.control.servo import Servo
 from zteleop.control.stick import Speeds, Stick
 from zteleop.errors import BusError, ConfigError
-from zteleop.messages import DriveStatus, Log, Odometry, Pwm, Twist, Vehicle
-from zteleop.nodes.stopping import PATIENCE
+from zteleop.messages import DriveStatus, Log, Odometry, Pwm, Stop, Twist, Vehicle
+from zteleop.nodes.stopping import PATIENCE, REPEAT
 from zteleop.nodes.teleop import LINK_LOSS, NEWS, PERIOD, SHOW_AFTER, Teleop, View
 
 CAR = describe(DriveSettings(), 4.08)
@@ -60,7 +60,8 @@ class Desk:
 
     def hear_state(self, state: str, stop: int = 0) -> None:
         status = DriveStatus.zero()
-        status.state, status.stop, status.why = state, stop, f"it is {state}"
+        status.state, status.why = state, f"it is {state}"
+        status.stops = [Stop(True, stop, "the watchdog", "")] if stop else []
         self.node.inboxes["drive_status"].waiting.append(status)
 
     def hear_log(self, text: str) -> None:
@@ -291,6 +292,8 @@ def test_a_stop_is_passed_on_once_repeated_and_lets_go(desk: Desk, clock: Clock)
     desk.tick(9)
     assert desk.stops.take() == [stop] * 10
     desk.hear_state("stopped", stop.id)
+    desk.tick(round(REPEAT / PERIOD))
+    assert len(desk.stops.take()) == pytest.approx(REPEAT / PERIOD - 10, abs=2), "for 3 s, answered or not"
     desk.tick(9)
     assert desk.stops.take() == []
 
@@ -383,13 +386,15 @@ def test_whoever_stops_and_leaves_is_heard_first(desk: Desk) -> None:
     desk.tick(5)
     assert not desk.node.stopped
     desk.hear_state("stopped", desk.stops.messages[0].id)
-    desk.tick()
+    desk.tick(round((REPEAT - 0.5) / PERIOD))
+    assert not desk.node.stopped
+    desk.tick(round(0.5 / PERIOD))
     assert desk.node.stopped
 
 
 def test_whoever_leaves_after_a_stop_that_nobody_acknowledged_is_told(desk: Desk) -> None:
     desk.device.stop_wish, desk.device.finished = True, True
-    desk.node.spin = lambda: desk.tick(round(PATIENCE / PERIOD) + 2, beats=False)
+    desk.node.spin = lambda: desk.tick(round(REPEAT / PERIOD) + 2, beats=False)
     with pytest.raises(BusError, match="archangel has not acknowledged the stop"):
         desk.teleop.run()
     assert desk.node.stopped

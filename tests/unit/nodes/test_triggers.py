@@ -12,7 +12,9 @@ def raw(path: str, message: Message, at: float = 5.0) -> Raw:
 
 def status(state: str, why: str = "so", stop: int = 0) -> Raw:
     message = DriveStatus.zero()
-    message.state, message.why, message.stop = state, why, stop  # type: ignore[assignment]
+    message.state, message.why = state, why  # type: ignore[assignment]
+    if stop or state == "stopped":
+        message.stops = [Stop(engaged=True, id=stop, by="ann", why="")]
     return raw("drive_status", message)
 
 
@@ -68,6 +70,10 @@ def test_a_stop_without_a_number_is_a_reason() -> None:
 
 def test_a_stop_in_force_is_none_when_it_is_said_again() -> None:
     assert reasons(status("stopped", stop=7), stop(7)) == [None, None]
+
+
+def test_two_stops_said_in_turns_are_two_reasons() -> None:
+    assert reasons(stop(7), stop(8), stop(7), stop(8)) == ["stop", "stop", None, None]
 
 
 def test_a_stop_says_who_and_why() -> None:

@@ -336,7 +336,7 @@ def test_one_that_moves_on_although_somebody_stopped_it_is_killed(awake: Kennel)
     awake.child.moves = True
     awake.until(lambda: push() or awake.clock.time > 1010.0)
     assert not awake.resting
-    awake.shelf.keep(Stop(engaged=True, id=5, by="ann", why=""))
+    awake.shelf.add(Stop(engaged=True, id=5, by="ann", why=""))
     seconds = awake.until(push)
     assert GRACE < seconds <= GRACE + 4 * LOOK_EVERY
     assert "its pulses moved although a stop is in force" in awake.node.errors[-1]
@@ -410,13 +410,13 @@ def test_a_chip_that_writes_do_not_reach_is_brought_up(awake: Kennel) -> None:
 
 
 def test_neutral_goes_out_before_a_stop_is_kept(awake: Kennel) -> None:
-    kept, keep = [], awake.shelf.keep
+    kept, keep = [], awake.shelf.add
 
     def slowly(stop: Stop) -> None:
         kept.append(dict(awake.hand.pulses))
         keep(stop)
 
-    awake.shelf.keep = slowly
+    awake.shelf.add = slowly
     awake.hand.pulses = dict(MOVING)
     awake.until(lambda: awake.shelf.stop)
     assert kept == [NEUTRAL]
