@@ -53,10 +53,11 @@ def stop_file(data: bytes) -> None:
     """Start with a stop file that holds anything: the robot is stopped."""
     path = scratch() / "stop"
     path.write_bytes(data)
-    stop = StopFile(path, lambda text: None).load()
-    assert stop is not None
-    assert stop.engaged
-    codec.encode(stop)
+    stops = StopFile(path, lambda text: None).load()
+    assert stops
+    for stop in stops:
+        assert stop.engaged
+        codec.encode(stop)
 
 
 def link_of_actuator(data: bytes) -> None:
@@ -67,7 +68,7 @@ def link_of_actuator(data: bytes) -> None:
         for at in range(1, len(data), size):
             ours.send(data[at : at + size])
             words = end.read()
-            assert words.stop is None or codec.encode(words.stop)
+            assert all(codec.encode(stop) for stop in words.stops)
         assert len(end._rest) < 2**16 + 3
     end.close()
 
