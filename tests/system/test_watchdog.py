@@ -10,6 +10,14 @@ from bench import DRIVEN, FORWARD, MOVES_BY_ITSELF, Bench, defective
 from rig import NEUTRAL, ZTELEOP, Process, Rig, Watch, every, hear
 
 from zteleop.drivers.faults import Faults
+from zteleop.messages import DriveStatus, Pwm
+
+CLOSED = """
+import os, sys
+for number in range(3):
+    os.close(number)
+os.execv(sys.executable, [sys.executable, "-m", "zteleop", *sys.argv[1:]])
+"""
 
 
 def test_an_actuator_that_moves_by_itself_and_heeds_no_stop(rig: Rig) -> None:
@@ -20,6 +28,24 @@ def test_an_actuator_that_moves_by_itself_and_heeds_no_stop(rig: Rig) -> None:
     bench.rests()
     bench.is_latched("the watchdog")
     bench.stays_neutral()
+
+
+def test_with_its_standard_files_closed_no_log_line_goes_into_a_chip(rig: Rig) -> None:
+    arguments = ["actuator", *rig.bus_options()[:-2], "--listen", rig.endpoint]
+    robot = rig.program(CLOSED, *arguments)
+    node = rig.node("truth")
+    rig.hear(node)
+    hear(node.subscription("drive_status", DriveStatus), lambda status: status.state == "idle", "idle")
+    assert robot.child
+    for pid in (robot.process.pid, robot.child):
+        files = [os.readlink(f"/proc/{pid}/fd/{number}") for number in (1, 2)]
+        assert files == [os.devnull] * 2
+    node.publisher("pwm", Pwm).publish(Pwm(9999, 9999))  # which is logged
+    with Watch(rig) as watch:
+        node.spin(0.5)
+    assert watch.seen == {NEUTRAL}
+    robot.signal(signal.SIGTERM)
+    assert robot.ends() == 143
 
 
 def test_a_chip_belongs_to_an_actuator_whose_watchdog_was_killed_until_it_is_gone_too(rig: Rig) -> None:

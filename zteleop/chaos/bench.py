@@ -101,6 +101,14 @@ class Bench:
                 raise BusError(f"the robot did not start: {self.watchdog.words}")
             time.sleep(LOOK)
 
+    def await_ready(self) -> None:
+        """Wait until somebody may begin to drive: who moves before can never begin anew.
+
+        Raises BusError with the robot's last words when that takes too long.
+        """
+        if self.until(lambda: (status := self.status) and status.state != "starting", START) is None:
+            raise BusError(f"the robot did not get ready: {self.watchdog.words}")
+
     def run(
         self, name: str, command: Sequence[str], terminal: int | None = None, *, leashed: bool = False
     ) -> Process:

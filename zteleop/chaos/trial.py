@@ -44,6 +44,7 @@ class Outcome(NamedTuple):
 def driven(subject: Subject, fault: Fault) -> Iterator[Bench]:
     """Start a robot and somebody who drives it; raises BusError when it does not move."""
     with Bench(subject) as bench:
+        bench.await_ready()
         fault.before(bench)
         with OPERATORS[fault.operator](bench):
             if bench.until(lambda: not bench.eye.at_rest, PATIENCE) is None:

@@ -33,6 +33,7 @@ zteleop VERB --help tells more. Start with: zteleop demo
 
 def main(argv: list[str] | None = None) -> int:
     """Run one verb; return 0 done, 1 error, 2 usage, 130 Ctrl-C, 143 SIGTERM."""
+    _open_standard_files()
     try:
         code = _run(sys.argv[1:] if argv is None else argv)
         sys.stdout.flush()
@@ -42,6 +43,19 @@ def main(argv: list[str] | None = None) -> int:
     except BrokenPipeError:  # whoever read is gone: what is left to say goes nowhere, quietly
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
+
+
+def _open_standard_files() -> None:
+    """Open /dev/null in the place of a standard file that is closed.
+
+    Else the next file that is opened takes its number, be it a chip or a lock, and log lines go into it.
+    """
+    while (file := os.open(os.devnull, os.O_RDWR)) <= 2:
+        os.set_inheritable(file, True)
+    os.close(file)
+    for file, (name, mode) in enumerate((("stdin", "r"), ("stdout", "w"), ("stderr", "w"))):
+        if getattr(sys, name) is None:
+            setattr(sys, name, os.fdopen(file, mode, closefd=False))
 
 
 def _run(arguments: list[str]) -> int:

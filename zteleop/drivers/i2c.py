@@ -107,13 +107,20 @@ def failure(error: OSError, name: str, address: int | None = None, found: str = 
     return DeviceError(sentences.get(error.errno or 0, otherwise))
 
 
+ALL_CALL = 0x70
+"""Where every PCA9685 answers as well, until it is told not to (section 7.3.7)."""
+
+
 def answering(i2c: I2C, wanted: int) -> str:
     """Say which addresses answer where a PCA9685 may live, 0x40..0x7f."""
     found = [address for address in range(0x40, 0x80) if _answers(i2c, address)]
     if wanted in found:
         return "it did when asked again: check for a loose wire"
+    if not found:
+        return "nor at any other; check power and wiring"
     there = ", ".join(f"0x{address:02x}" for address in found)
-    return f"found {there}" if there else "nor at any other; check power and wiring"
+    likely = next((address for address in found if address != ALL_CALL), found[0])
+    return f"found {there}; if that is the chip, set address = 0x{likely:02x}"
 
 
 def _answers(i2c: I2C, address: int) -> bool:

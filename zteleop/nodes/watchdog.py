@@ -25,8 +25,10 @@ from zteleop.nodes.stop_file import StopFile
 PERIOD = 0.02
 BEAT_EVERY = LOOK_EVERY = 0.05
 TELL_EVERY = 0.2
-SILENCE, SILENCE_AT_START = 0.25, 5.0
+SILENCE = 0.25
 """s without a step of the actuator until it is killed."""
+START, LONGEST_START = 5.0, 60.0
+"""s until its first step; whatever was too short is doubled for the next, as a slow machine stays slow."""
 LATE = 0.2
 """s between two ticks, after which the watchdog knows that it was stopped itself."""
 FORGIVE_EVERY = 2.0
@@ -60,6 +62,7 @@ class Watchdog:
         self._statuses = node.publisher("watchdog", WatchdogStatus)
         self._ticked, self._woke = clock.now(), float("-inf")
         self._restart_at: float | None = None
+        self._start_patience = START
         self._standing: Standing | None = None
         """Of the actuator that is gone, where it was only late."""
         self._look_after = clock.now()
@@ -110,7 +113,7 @@ class Watchdog:
 
     def _greet(self) -> None:
         """Let the outputs through, and tell a new actuator of stops that may be on no disk."""
-        self._why = "the actuator steps"
+        self._why, self._start_patience = "the actuator steps", START
         self._cut(False)
         for stop in self._ears.stops:
             self._tell_stop(stop)
@@ -127,12 +130,19 @@ class Watchdog:
         if self._restart_at is not None:
             self._keep_at_rest(now)
         elif self._silent(now):
-            self._fell(f"it was silent for {self._child.silence(now):.2f} s", 0.0, late=True)
+            self._fell(self._describe_silence(now), 0.0, late=True)
 
     def _silent(self, now: float) -> bool:
         """Say whether the actuator has been silent for too long while the watchdog was there to hear it."""
-        limit = SILENCE if self._child.ready else SILENCE_AT_START
+        limit = SILENCE if self._child.ready else self._start_patience
         return min(self._child.silence(now), now - self._woke) > limit
+
+    def _describe_silence(self, now: float) -> str:
+        """Return what it was killed for; one that had not begun to step leaves the next more time for it."""
+        if self._child.ready:
+            return f"it was silent for {self._child.silence(now):.2f} s"
+        had, self._start_patience = self._start_patience, min(2 * self._start_patience, LONGEST_START)
+        return f"it did not step within {had:g} s of its start, and the next has {self._start_patience:g} s"
 
     def _beat(self) -> None:
         report = self._child.newest

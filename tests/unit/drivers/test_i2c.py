@@ -115,7 +115,7 @@ def test_a_failed_transfer_says_where_what_and_what_to_do(error: int, words: str
 
 def test_answering_names_the_addresses_that_do(wire: Wire) -> None:
     wire.address = 0x70
-    assert answering(wire, 0x40) == "found 0x70"
+    assert answering(wire, 0x40) == "found 0x70; if that is the chip, set address = 0x70"
     assert answering(wire, 0x70) == "it did when asked again: check for a loose wire"
     wire.address = 0x20
     assert answering(wire, 0x40) == "nor at any other; check power and wiring"

@@ -24,7 +24,7 @@ from zteleop.nodes.watchdog import (
     PERIOD,
     REST_PATIENCE,
     SILENCE,
-    SILENCE_AT_START,
+    START,
     TELL_EVERY,
     YIELD,
     Watchdog,
@@ -262,11 +262,27 @@ def test_a_silent_actuator_is_killed_after_a_quarter_of_a_second(awake: Kennel) 
     assert "it was silent for 0.2" in awake.node.errors[-1]
 
 
-def test_a_starting_actuator_has_five_seconds(kennel: Kennel, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_starting_actuator_has_five_seconds_and_the_next_twice_as_long(
+    kennel: Kennel, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where a start takes six, each would be killed just before it is over, for ever."""
     monkeypatch.setattr(Watchdog, "_finish", lambda dog: None)
     kennel.child.frozen = True
     kennel.dog.run()
-    assert kennel.until(lambda: kennel.resting) == pytest.approx(SILENCE_AT_START, abs=2 * PERIOD)
+    for number, seconds in enumerate((START, 2 * START, 4 * START), 1):
+        errors = len(kennel.node.errors)
+        took = kennel.until(lambda: len(kennel.node.errors) > errors, 5 * START)  # noqa: B023
+        assert took == pytest.approx(seconds, abs=3 * PERIOD)
+        words = f"it did not step within {seconds:g} s of its start, and the next has {2 * seconds:g} s"
+        assert words in kennel.node.errors[-1]
+        kennel.until(lambda: kennel.child.starts > number)  # noqa: B023
+    kennel.child.frozen = False
+    kennel.live(1.0)
+    kennel.child.frozen = True
+    kennel.until(lambda: kennel.child.starts > 4)
+    errors = len(kennel.node.errors)
+    took = kennel.until(lambda: len(kennel.node.errors) > errors)
+    assert took == pytest.approx(START, abs=3 * PERIOD), "one that stepped has proved the machine fast"
 
 
 def test_an_actuator_that_ends_is_noticed_at_once_and_neutral_comes_first(awake: Kennel) -> None:
