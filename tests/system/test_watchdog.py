@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 from bench import DRIVEN, FORWARD, MOVES_BY_ITSELF, Bench, defective
-from rig import NEUTRAL, ZTELEOP, Process, Rig, Watch, every, hear
+from rig import NEUTRAL, ZTELEOP, Process, Rig, Watch, every, hear, repeating
 
 from zteleop.drivers.faults import Faults
-from zteleop.messages import DriveStatus, Pwm
+from zteleop.messages import DriveStatus, Log
 
 CLOSED = """
 import os, sys
@@ -40,9 +40,10 @@ def test_with_its_standard_files_closed_no_log_line_goes_into_a_chip(rig: Rig) -
     for pid in (robot.process.pid, robot.child):
         files = [os.readlink(f"/proc/{pid}/fd/{number}") for number in (1, 2)]
         assert files == [os.devnull] * 2
-    node.publisher("pwm", Pwm).publish(Pwm(9999, 9999))  # which is logged
-    with Watch(rig) as watch:
-        node.spin(0.5)
+    logs, stranger = node.subscription("log", Log), rig.session()
+    key = f"robot/{rig.robot}/pwm/keyboard"
+    with Watch(rig) as watch, repeating(lambda: stranger.put(key, b"no command"), 0.1):
+        hear(logs, lambda log: key in log.msg, "a line in the log")
     assert watch.seen == {NEUTRAL}
     robot.signal(signal.SIGTERM)
     assert robot.ends() == 143

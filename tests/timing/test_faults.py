@@ -15,8 +15,8 @@ from verdict import Deadline, NotJudged, judged
 from zteleop import chaos
 from zteleop.chaos.bench import Subject
 from zteleop.chaos.fault import Fault
-from zteleop.chaos.trial import attempt
-from zteleop.config import Config
+from zteleop.chaos.trial import attempt, driven
+from zteleop.config import Config, load
 from zteleop.drivers.registers import read_duty_ticks
 from zteleop.drivers.simulated import open_registers
 from zteleop.messages import Pwm
@@ -74,6 +74,15 @@ def test_the_real_driver_keeps_the_same_bounds_and_waits_for_consent(tmp_path: P
         if not verdict["times"]:
             raise NotJudged(f"{verdict['fault']} was void each time")
         judged(verdict["worst"], verdict["bound"], verdict["longest_wait"])
+
+
+def test_nobody_drives_a_bench_before_it_is_ready(tmp_path: Path) -> None:
+    """Its operator holds on all the time: one that began while the ESC armed would wait for ever."""
+    file = tmp_path / "config.toml"
+    file.write_text("[drivers.simulated]\narming = 2.5\n")
+    subject = Subject(load(file), ("--driver", "simulated", "--config", str(file)))
+    with driven(subject, SHORT[0]) as bench:
+        assert not bench.eye.at_rest
 
 
 def running(words: str) -> list[int]:

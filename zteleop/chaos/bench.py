@@ -22,6 +22,8 @@ from zteleop.errors import BusError
 from zteleop.messages import DriveStatus, Stop, Twist
 
 START = 10.0
+READY = 20.0
+"""s; an ESC may take ten of them to arm"""
 LOOK = 0.0005
 SABOTAGE = Path(__file__).with_name("sabotage")
 
@@ -106,7 +108,7 @@ class Bench:
 
         Raises BusError with the robot's last words when that takes too long.
         """
-        if self.until(lambda: (status := self.status) and status.state != "starting", START) is None:
+        if self.until(lambda: (status := self.status) and status.state != "starting", READY) is None:
             raise BusError(f"the robot did not get ready: {self.watchdog.words}")
 
     def run(

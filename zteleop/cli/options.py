@@ -111,8 +111,8 @@ def join(name: str, settings: Config) -> Node:
         raise
 
 
-def look_around(name: str, settings: Config, settle: bool) -> Node:
-    """Join the bus as a node of no robot, when everybody is found where `settle` says so."""
+def join_for_any(name: str, settings: Config, settle: bool) -> Node:
+    """Join the bus as a node of no robot; with `settle`, once everybody is found."""
     return Node(name, session=open_session(settings.bus, settle=settle))
 
 

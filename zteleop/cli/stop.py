@@ -25,7 +25,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     settings = options.load_anyhow(arguments)
     every = arguments.all and not arguments.release
-    with options.look_around("stop", settings, settle=every or settings.robot is None) as node:
+    with options.join_for_any("stop", settings, settle=every or settings.robot is None) as node:
         if arguments.release:
             robot = options.find_robot(node.session, settings)
             print(printable(release(node, robot, arguments.all)))
@@ -34,25 +34,27 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def stop(node: Node, robots: list[str], why: str = "") -> int:
-    """Stop these robots, say what each answers, and return 1 when one has not confirmed it."""
+    """Stop these robots, say what each answers, and return 1 when one has not acknowledged it."""
     asked = [Stopping(node, person(), robot) for robot in robots]
     for stopping in asked:
         stopping.engage(clock.now(), why)  # before anything else is set up: somebody waits for it
     for stopping in asked:
         _listen(node, stopping)
 
-    def heed() -> list[Stopping]:
-        return [stopping for stopping in waiting if stopping.heed(None, clock.now())]
+    told: list[Stopping] = []
 
-    waiting = list(asked)
-    while waiting:
-        for stopping in node.until(heed, 2 * PATIENCE):
-            waiting.remove(stopping)
-            _tell(node, stopping)
-    # Longer than any loss of the link that heals by itself: whoever is deaf now hears it then.
-    waiting = list(asked)
-    node.until(lambda: heed() and not any(s.repeats(clock.now()) for s in asked), REPEAT)
-    return max(stopping.state != "done" for stopping in asked)
+    def is_over() -> bool:
+        """Go on saying it, tell each answer as it comes, and look whether there is more to say."""
+        for stopping in asked:
+            if stopping.heed(None, clock.now()) and stopping not in told:
+                told.append(stopping)
+                _tell(stopping)
+        return len(told) == len(asked) and not any(stopping.repeats(clock.now()) for stopping in asked)
+
+    node.until(is_over, 2 * REPEAT)
+    if any(stopping.unheard for stopping in asked):  # only now: who is there may take time to find out
+        print(printable(_who_is_here(node)), file=sys.stderr)
+    return int(any(stopping.state != "done" for stopping in asked))
 
 
 def release(node: Node, robot: str, everybodys: bool = False) -> str:
@@ -63,7 +65,7 @@ def release(node: Node, robot: str, everybodys: bool = False) -> str:
     _listen(node, stopping)
     node.until(lambda: stopping.heed(None, clock.now()), 2 * PATIENCE)
     if stopping.state != "done":
-        raise BusError(stopping.words + (_who_is_here(node, robot) if stopping.unheard else ""))
+        raise BusError(stopping.words + (f"; {_who_is_here(node)}" if stopping.unheard else ""))
     return stopping.words
 
 
@@ -75,21 +77,18 @@ def _listen(node: Node, stopping: Stopping) -> None:
     )
 
 
-def _tell(node: Node, stopping: Stopping) -> None:
+def _tell(stopping: Stopping) -> None:
     if stopping.state == "done":
         advice = f"zteleop stop --release {stopping.robot} lets it drive again, from neutral"
         print(printable(f"{stopping.words}; {advice}"), flush=True)
     else:
-        here = _who_is_here(node, stopping.robot) if stopping.unheard else ""
-        print(printable(f"zteleop stop: {stopping.words}{here}"), file=sys.stderr, flush=True)
+        print(printable(f"zteleop stop: {stopping.words}"), file=sys.stderr, flush=True)
 
 
-def _who_is_here(node: Node, robot: str) -> str:
-    """Return who else could have been meant, where a robot is not heard."""
+def _who_is_here(node: Node) -> str:
+    """Return who could have been meant, where a robot is not heard."""
     found = presence.robots(node.session)
-    if robot in found:
-        return ""
-    return f"; heard here: {', '.join(found)}" if found else "; no robot is heard here"
+    return f"heard here: {', '.join(found)}" if found else "no robot is heard here"
 
 
 def _robots(node: Node, settings: Config, every: bool) -> list[str]:
@@ -99,7 +98,8 @@ def _robots(node: Node, settings: Config, every: bool) -> list[str]:
     found = presence.robots(node.session)
     if len(found) > 1 and not every:
         return _ask(found)
-    return found or [settings.robot or config.own_name()]
+    named = [settings.robot] if settings.robot else []
+    return sorted({*found, *named}) or [config.own_name()]
 
 
 def _ask(found: list[str]) -> list[str]:

@@ -47,8 +47,8 @@ class Latch:
         if said.id in self._known or any(stop.id == said.id for stop in self._stops.values()):
             return False
         self._know(said.id)
-        if said.by not in self._stops and len(self._stops) >= PRESSERS:
-            said = MERGED
+        if said.by == MERGED.by or (said.by not in self._stops and len(self._stops) >= PRESSERS):
+            said = MERGED  # nobody can press by that name, and so end what others have pressed
         self._stops[said.by] = said
         return True
 
@@ -78,7 +78,7 @@ def is_persons(stop: Stop) -> bool:
     return "@" in stop.by
 
 
-def name(stops: Sequence[Stop]) -> str:
+def whose(stops: Sequence[Stop]) -> str:
     """Return whose stops these are, and why, in words."""
     named = [f"{stop.by or 'somebody'}{f' ({stop.why})' if stop.why else ''}" for stop in stops[:TOLD]]
     if len(stops) > TOLD:
@@ -89,8 +89,6 @@ def name(stops: Sequence[Stop]) -> str:
 def describe(stops: Sequence[Stop]) -> str:
     """Return the stops in force in words."""
     if len(stops) == 1:
-        reason = f": {stops[0].why}" if stops[0].why else ""
-        return (
-            f"stopped by {stops[0].by or 'somebody'}{reason}; zteleop stop --release, then begin from neutral"
-        )
-    return f"stopped by {name(stops)}; each releases their own, then begin from neutral"
+        who, why = stops[0].by or "somebody", f": {stops[0].why}" if stops[0].why else ""
+        return f"stopped by {who}{why}; zteleop stop --release, then begin from neutral"
+    return f"stopped by {whose(stops)}; each releases their own, then begin from neutral"

@@ -227,6 +227,7 @@ class Actuator:
             self._stop_file.promise(latch.stops)
         self._advance()
         self._stop_file.tend()
+        self._tell_status()  # whoever pressed waits for what the disk said
         self._journal.event("stop" if said.engaged else "release", by=said.by, why=said.why, id=said.id)
 
     def _tell_chip(self, words: str) -> None:

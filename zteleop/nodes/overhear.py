@@ -30,7 +30,7 @@ class Overhearing:
         self._beats = node.subscription("beat", Beat, complain=False)
         self._stops: Subscription[Stop] = node.subscription("stop", Stop, complain=False)
         self._latch = Latch(stop_file.load())
-        self._kept = frozenset[int]()
+        self._kept = stop_file.ids()
         self._asked: dict[int, float] = {}
         """When a stop was heard that the actuator must keep, by its id."""
         self._beat_at = float("-inf")

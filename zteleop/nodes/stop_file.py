@@ -14,7 +14,6 @@ UNREADABLE = 2**53 - 2
 """The id of the stop that a file stands for whose content nobody can read; all who look must agree on it."""
 _LONGEST = 2**17
 """bytes; 64 stops with long reasons are half of that"""
-_READ = Stop | list[Stop]  # an older robot kept but one
 
 
 class StopFile:
@@ -38,8 +37,7 @@ class StopFile:
         if not self.exists():
             return []
         try:
-            found = msgspec.json.decode(_read(self.path), type=_READ)
-            stops = found if isinstance(found, list) else [found]
+            stops = msgspec.json.decode(_read(self.path), type=list[Stop])
         except (OSError, msgspec.DecodeError, UnicodeDecodeError):
             stops = []
         if not stops:
@@ -58,7 +56,7 @@ class StopFile:
         """Say what is to be kept; `tend` does it."""
         self._stops, self.unkept = tuple(stops), self.unkept or "they are being written"
 
-    def keep(self, stops: Sequence[Stop]) -> bool:
+    def keep(self, stops: Sequence[Stop]) -> None:
         """Keep these stops, at once for other processes; the disk itself is written behind our back."""
         self._stops = tuple(stops)
         try:
@@ -69,15 +67,14 @@ class StopFile:
             if why != self.unkept:
                 self._warn(f"the stop holds, but not across a restart: {why}")
             self.unkept = why
-            return False
+            return
         self.unkept = ""
         # An SD card may take a second for it; the loop that keeps the robot at rest must not wait.
         threading.Thread(target=_flush, args=(self.path,), daemon=True).start()
-        return True
 
-    def add(self, stop: Stop) -> bool:
+    def add(self, stop: Stop) -> None:
         """Keep a stop beside those that another process has kept."""
-        return self.keep([*(kept for kept in self.load() if kept.by != stop.by), stop])
+        self.keep([*(kept for kept in self.load() if kept.by != stop.by), stop])
 
     def tend(self) -> None:
         """Try again what could not be kept."""

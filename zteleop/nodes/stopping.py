@@ -8,7 +8,7 @@ from typing import Literal
 
 from zteleop.bus.node import Node
 from zteleop.control.hold import HOLDS
-from zteleop.control.stop import MERGED, is_persons, name
+from zteleop.control.stop import MERGED, is_persons, whose
 from zteleop.messages import DriveStatus, Stop
 
 EVERY, PATIENCE = 0.05, 2.0
@@ -31,12 +31,12 @@ class Stopping:
         self._matched = False
         self._asked: list[Stop] = []
         self._since = self._due = NEVER
-        self._before: frozenset[int] = frozenset()
-        """The stops that were in force when it was asked, as far as was seen."""
+        self._before: frozenset[int] | None = None
+        """The stops that were in force when it was asked, as far as anybody has seen."""
         self._seen: DriveStatus | None = None
         self._since_then: DriveStatus | None = None
-        self._shown = self._is_over = False
-        """The stop asked for was in force, and no longer is."""
+        self._is_over = False
+        """The stop asked for was acknowledged, and is no longer in force."""
         self.state: Literal["", "pending", "done", "failed"] = ""
         self.words = ""
         self.ended = NEVER
@@ -48,8 +48,8 @@ class Stopping:
 
     @property
     def unheard(self) -> bool:
-        """The robot has said nothing since it was asked."""
-        return self._since_then is None
+        """The robot has never said anything."""
+        return self._seen is None
 
     def repeats(self, now: float) -> bool:
         """Say whether a stop is still being said, whatever the answer was."""
@@ -62,6 +62,7 @@ class Stopping:
 
     def release(self, status: DriveStatus | None, now: float, everybodys: bool = False) -> None:
         """Begin to ask for the end of one's own stops that a status shows, or of everybody's."""
+        self._seen = status or self._seen
         stops = status.stops if status else []
         if self.state == "pending" and (self._engages or status is None) and not stops:
             return  # what is asked for comes first
@@ -71,19 +72,18 @@ class Stopping:
         elif not stops:
             self._refuse("done", f"{self.robot} is not stopped", now)
         elif not meant:
-            self._refuse("failed", self._whose(stops), now)
+            self._refuse("failed", self._tell_whose(stops), now)
         elif self.state != "pending" or _ids(self._asked) != _ids(meant) or self._engages:
-            self._before = _ids(stops)
             self._ask([Stop(False, stop.id, self._by, "") for stop in meant], now)
             self.words = f"asking {self.robot} to end its stop"
 
     def heed(self, status: DriveStatus | None, now: float) -> bool:
         """Take in a new status, if there is one, and go on asking; True when nothing is asked any more."""
         self._seen, self._since_then = status or self._seen, status or self._since_then
-        if status and self._engages:
-            is_shown = self._shows(status)
-            self._is_over |= self._shown and not is_shown
-            self._shown |= is_shown
+        if status and self._before is None:  # where none was seen at the press, the first may be older
+            self._before = _ids(status.stops)
+        if status and self._engages and self.state == "done":
+            self._is_over |= not self._shows(status)
         if self.state == "pending":
             self._go_on(status, now)
         elif self.unanswered and status and self._shows(status):
@@ -99,9 +99,9 @@ class Stopping:
     def _may_release(self, stop: Stop) -> bool:
         return stop.by == self._by or (not is_persons(stop) and stop.id != MERGED.id)
 
-    def _whose(self, stops: Sequence[Stop]) -> str:
+    def _tell_whose(self, stops: Sequence[Stop]) -> str:
         return (
-            f"{self.robot} is stopped by {name(stops)}; each releases their own, "
+            f"{self.robot} is stopped by {whose(stops)}; each releases their own, "
             f"zteleop stop --release --all {self.robot} everybody's"
         )
 
@@ -110,10 +110,9 @@ class Stopping:
         self._end(state, words, now)
 
     def _ask(self, said: list[Stop], now: float) -> None:
-        if said[0].engaged:
-            self._before = _ids(self._seen.stops) if self._seen else frozenset()
+        self._before = _ids(self._seen.stops) if self._seen else None
         self.state, self._asked, self._since = "pending", said, now
-        self._since_then, self._shown, self._is_over = None, False, False
+        self._since_then, self._is_over = None, False
         self._say(now)
 
     def _is_due(self, now: float) -> bool:
@@ -140,18 +139,18 @@ class Stopping:
 
     def _shows(self, status: DriveStatus) -> bool:
         """Say whether a stop is in force: by its id, or by what has taken its place."""
+        before = self._before or ()
         return any(
-            stop.id == self._asked[0].id
-            or (stop.id not in self._before and (stop.by == self._by or stop.id == MERGED.id))
+            stop.id in (self._asked[0].id, MERGED.id) or (stop.by == self._by and stop.id not in before)
             for stop in status.stops
         )
 
     def _find_rest(self, status: DriveStatus, now: float) -> None:
         """Say what keeps the robot at rest when the stops that were meant are over."""
-        if _ids(status.stops) - self._before:
+        if _ids(status.stops) - (self._before or frozenset()):
             self._end("failed", f"{self.robot} was stopped anew meanwhile: {status.why}", now)
         elif status.stops:
-            self._end("done", f"yours is released, but {self._whose(status.stops)}", now)
+            self._end("done", f"yours is released, but {self._tell_whose(status.stops)}", now)
         elif status.state in HOLDS:
             self._end("done", f"the stop of {self.robot} is over, but it is kept at rest: {status.why}", now)
         else:
@@ -165,7 +164,7 @@ class Stopping:
             self._end("failed", f"{self.robot} {what}; take it as stopped, and try again", now)
             return
         what = f"has not acknowledged the stop within {PATIENCE:g} s"
-        others = f", and rests only by that of {name(seen.stops)}" if seen and seen.stops else ""
+        others = f", and rests only by that of {whose(seen.stops)}" if seen and seen.stops else ""
         advice = "cut its power, or run zteleop neutral on it"
         self._end("failed", f"{self.robot} {what}{others}: {advice}", now)
 

@@ -54,25 +54,21 @@ class Triggers:
 
     def _hear_stop(self, stop: Stop) -> tuple[str, str] | None:
         shown = _ids(self._status) if self._status else frozenset()
-        if not stop.engaged or stop.id in shown or stop.id in self._known:
-            return None
-        self._know(stop.id)
+        if not stop.engaged or not stop.id or stop.id in shown or stop.id in self._known:
+            return None  # said again, or by hand without an id, which only the status tells apart
+        self._known.append(stop.id)
         return STOP, f"stopped by {stop.by or 'somebody'}" + (f": {stop.why}" if stop.why else "")
 
     def _hear_status(self, status: DriveStatus) -> tuple[str, str] | None:
         before, self._status = self._status, status
         if before is None:
             return None
-        for new in _ids(status) - _ids(before) - set(self._known):
-            self._know(new)
+        if new := _ids(status) - _ids(before) - set(self._known):
+            self._known.extend(new - {0})
             return STOP, status.why
         if status.state != before.state and status.state in STATES:
             return STATES[status.state], status.why
         return None
-
-    def _know(self, identity: int) -> None:
-        if identity:  # 0 is nobody's: each time it is meant anew
-            self._known.append(identity)
 
     def _hear_watchdog(self, dog: WatchdogStatus) -> tuple[str, str] | None:
         before, self._restarts = self._restarts, dog.restarts + (dog.state == "resting")

@@ -130,15 +130,15 @@ class Watchdog:
         if self._restart_at is not None:
             self._keep_at_rest(now)
         elif self._silent(now):
-            self._fell(self._describe_silence(now), 0.0, late=True)
+            self._fell(self._lose_patience(now), 0.0, late=True)
 
     def _silent(self, now: float) -> bool:
         """Say whether the actuator has been silent for too long while the watchdog was there to hear it."""
         limit = SILENCE if self._child.ready else self._start_patience
         return min(self._child.silence(now), now - self._woke) > limit
 
-    def _describe_silence(self, now: float) -> str:
-        """Return what it was killed for; one that had not begun to step leaves the next more time for it."""
+    def _lose_patience(self, now: float) -> str:
+        """Return what an actuator is killed for; one that never stepped leaves the next more time."""
         if self._child.ready:
             return f"it was silent for {self._child.silence(now):.2f} s"
         had, self._start_patience = self._start_patience, min(2 * self._start_patience, LONGEST_START)

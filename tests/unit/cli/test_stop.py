@@ -83,10 +83,9 @@ def typed(
     """Type `zteleop stop` beside a robot, or beside none."""
     monkeypatch.setattr(verb, "person", lambda: "ann@desk")
     monkeypatch.setattr(config, "own_name", lambda: "archangel")
-    monkeypatch.setattr(config, "load", lambda file: config.Config())
 
     def type_(latch: Latch | None, *arguments: str) -> tuple[int, str, str]:
-        monkeypatch.setattr(options, "look_around", lambda name, settings, settle: Robot(clock, latch))
+        monkeypatch.setattr(options, "join_for_any", lambda name, settings, settle: Robot(clock, latch))
         monkeypatch.setattr(presence, "robots", lambda session: ["archangel"] if latch else heard)
         code = run_verb("stop", "stop a robot", list(arguments))
         return code, *capsys.readouterr()
@@ -138,7 +137,7 @@ def test_a_robot_nobody_has_is_told_with_those_there_are(typed: Type, heard: lis
     heard += ["archangel", "michael"]
     code, _, error = typed(None, "gabriel")
     assert code == 1
-    assert error.endswith("or run zteleop neutral on it; heard here: archangel, michael\n")
+    assert error.endswith("or run zteleop neutral on it\nheard here: archangel, michael\n")
 
 
 @pytest.mark.parametrize(
@@ -148,6 +147,7 @@ def test_a_robot_nobody_has_is_told_with_those_there_are(typed: Type, heard: lis
         (("--all",), ["archangel", "michael"]),
         (("michael", "--all"), ["archangel", "michael"]),
         (("michael",), ["michael"]),
+        (("gabriel", "--all"), ["archangel", "gabriel", "michael"]),
     ],
 )
 def test_of_several_robots_that_nobody_named_all_are_stopped_where_nobody_can_answer(
@@ -182,7 +182,7 @@ def test_a_stop_that_nobody_acknowledges_is_an_error_that_says_what_to_do(typed:
         1,
         "",
         "zteleop stop: archangel has not acknowledged the stop within 2 s: "
-        "cut its power, or run zteleop neutral on it; no robot is heard here\n",
+        "cut its power, or run zteleop neutral on it\nno robot is heard here\n",
     )
 
 

@@ -1,4 +1,4 @@
-from zteleop.control.stop import MERGED, PRESSERS, REMEMBERED, Latch, describe, is_persons, name
+from zteleop.control.stop import MERGED, PRESSERS, REMEMBERED, Latch, describe, is_persons, whose
 from zteleop.messages import Stop
 
 
@@ -74,6 +74,9 @@ def test_beyond_a_crowd_the_stops_are_one_that_bears_no_name_of_theirs() -> None
     for number in (1001, 1002, *range(1, PRESSERS + 1)):
         latch.obey(release(number))
     assert latch.stops == (MERGED,)
+    latch.obey(stop(1003, MERGED.by))
+    latch.obey(release(1003))
+    assert latch.stops == (MERGED,), "pressed by its name, and released"
     assert latch.obey(release(MERGED.id))
     assert latch.stops == ()
     for number in range(2000, 2000 + PRESSERS + 1):
@@ -131,7 +134,7 @@ def test_several_stops_are_told_by_name_and_a_crowd_by_number() -> None:
     assert describe(both) == (
         "stopped by ann (a cat) and bob; each releases their own, then begin from neutral"
     )
-    assert name([stop(number, f"p{number}") for number in range(9)]) == "p0, p1, p2 and 6 more"
+    assert whose([stop(number, f"p{number}") for number in range(9)]) == "p0, p1, p2 and 6 more"
 
 
 def test_the_last_stop_that_was_released_is_known() -> None:

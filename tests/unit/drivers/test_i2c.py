@@ -9,7 +9,7 @@ import pytest
 import smbus2 as real_smbus2
 from unit.drivers.wire import Wire
 
-from zteleop.drivers.i2c import answering, failure, open_i2c
+from zteleop.drivers.i2c import ALL_CALL, answering, failure, open_i2c
 from zteleop.drivers.pca9685 import Pca9685, Pca9685Settings
 from zteleop.errors import DeviceError
 
@@ -119,6 +119,16 @@ def test_answering_names_the_addresses_that_do(wire: Wire) -> None:
     assert answering(wire, 0x70) == "it did when asked again: check for a loose wire"
     wire.address = 0x20
     assert answering(wire, 0x40) == "nor at any other; check power and wiring"
+
+
+def test_of_a_chip_that_answers_to_all_calls_too_its_own_address_is_advised() -> None:
+    class Bus:
+        def read_byte_data(self, address: int, register: int) -> int:
+            if address not in (ALL_CALL, 0x7F):
+                raise OSError(errno.ENXIO, "nobody")
+            return 0
+
+    assert answering(Bus(), 0x40) == "found 0x70, 0x7f; if that is the chip, set address = 0x7f"
 
 
 def test_the_real_smbus2_speaks_to_the_chip(wire: Wire, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -34,7 +34,7 @@ def test_only_an_os_error_is_put_in_words(port: Port) -> None:
 def test_a_missing_chip_is_searched_for_only_when_asked(wire: Wire, port: Port) -> None:
     wire.address = 0x41
     with (
-        pytest.raises(DeviceError, match=r"on /dev/i2c-1; found 0x41; if that is the chip, set address = 0x41 \("),
+        pytest.raises(DeviceError, match=r"found 0x41; if that is the chip, set address = 0x41 \(i2cdetect"),
         port.in_words(True),
     ):
         port.get(MODE1)

@@ -214,18 +214,17 @@ class Shelf:
     def promise(self, stops: Iterable[Stop]) -> None:
         self.promised, self.unkept = list(stops), "they are being written"
 
-    def keep(self, stops: Iterable[Stop]) -> bool:
+    def keep(self, stops: Iterable[Stop]) -> None:
         self.promise(stops)
         self.tend()
-        return not self.unkept
 
     def tend(self) -> None:
         if self.unkept:
             self.stops = self.stops if self.full else self.promised
             self.unkept = "no space left" if self.full else ""
 
-    def add(self, stop: Stop) -> bool:
-        return self.keep([*self.stops, stop])
+    def add(self, stop: Stop) -> None:
+        self.keep([*self.stops, stop])
 
     def released(self) -> int:
         return self.past

@@ -165,6 +165,14 @@ def test_stops_that_were_kept_are_known_from_the_beginning() -> None:
     assert Overhearing(Node(), DriveSettings(), judge, shelf).stops == (STOP,)
 
 
+def test_a_stop_that_was_kept_and_is_gone_at_the_first_look_is_over() -> None:
+    shelf = Shelf(STOP)
+    ears = Overhearing(Node(), DriveSettings(), Judge(DriveSettings(), 4.08, 100.0), shelf)
+    shelf.remove()
+    ears.listen(100.02)
+    assert ears.stops == ()
+
+
 def test_another_stop_is_not_released_by_the_name_of_the_first(room: Room) -> None:
     other = Stop(engaged=True, id=6, by="bob", why="")
     for said in (STOP, other, RELEASE):

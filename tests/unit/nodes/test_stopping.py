@@ -159,18 +159,22 @@ def test_anothers_stop_that_came_later_is_not_ours(asker: Asker) -> None:
 
 @pytest.mark.parametrize("instead", [Stop(True, 9, "ann@desk", "pressed elsewhere"), MERGED])
 def test_what_takes_the_place_of_ours_acknowledges_it(asker: Asker, instead: Stop) -> None:
+    asker.heed(idle())
     asker.engage()
     assert asker.heed(shows("stopped", instead))
     assert asker.stopping.state == "done"
 
 
+@pytest.mark.parametrize("by", ["bob@sofa", "ann@desk"])
 @pytest.mark.parametrize("seen_before", [True, False])
-def test_anothers_earlier_stop_is_no_acknowledgement_of_ours(asker: Asker, seen_before: bool) -> None:
+def test_an_earlier_stop_of_anybody_is_no_acknowledgement_of_this_one(
+    asker: Asker, seen_before: bool, by: str
+) -> None:
     if seen_before:
-        asker.heed(stopped(7))
+        asker.heed(stopped(7, by=by))
     stop = asker.engage()
     asker.said.take()
-    asker.wait(0.5, stopped(7))
+    asker.wait(0.5, stopped(7, by=by))
     assert asker.stopping.state == "pending"
     assert asker.said.messages
     assert asker.heed(stopped(stop.id))

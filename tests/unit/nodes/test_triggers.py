@@ -68,6 +68,11 @@ def test_a_stop_without_a_number_is_a_reason() -> None:
     assert reasons(status("idle"), status("stopped"), status("stopped")) == [None, "stop", None]
 
 
+def test_a_stop_without_a_number_is_one_reason_however_often_it_is_said() -> None:
+    said = (status("idle"), stop(0), stop(0), status("stopped"), stop(0), status("idle"), status("stopped"))
+    assert reasons(*said) == [None, None, None, "stop", None, None, "stop"]
+
+
 def test_a_stop_in_force_is_none_when_it_is_said_again() -> None:
     assert reasons(status("stopped", stop=7), stop(7)) == [None, None]
 
