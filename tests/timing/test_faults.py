@@ -16,7 +16,7 @@ from zteleop import chaos
 from zteleop.chaos.bench import Subject
 from zteleop.chaos.fault import Fault
 from zteleop.chaos.trial import attempt, driven
-from zteleop.config import Config, load
+from zteleop.config import Config
 from zteleop.drivers.registers import read_duty_ticks
 from zteleop.drivers.simulated import open_registers
 from zteleop.messages import Pwm
@@ -76,11 +76,11 @@ def test_the_real_driver_keeps_the_same_bounds_and_waits_for_consent(tmp_path: P
         judged(verdict["worst"], verdict["bound"], verdict["longest_wait"])
 
 
-def test_nobody_drives_a_bench_before_it_is_ready(tmp_path: Path) -> None:
-    """Its operator holds on all the time: one that began while the ESC armed would wait for ever."""
-    file = tmp_path / "config.toml"
-    file.write_text("[drivers.simulated]\narming = 2.5\n")
-    subject = Subject(load(file), ("--driver", "simulated", "--config", str(file)))
+def test_nobody_drives_a_bench_before_its_actuator_is_there(tmp_path: Path) -> None:
+    """Its operator waits a second for a robot, then holds on: one that began too early waits for ever."""
+    late = "import sys, time\nif '--link' in sys.orig_argv: time.sleep(2.5)"
+    (tmp_path / "sitecustomize.py").write_text(late)  # which Python imports at each start
+    subject = Subject(Config(), ("--driver", "simulated"), {"PYTHONPATH": str(tmp_path)})
     with driven(subject, SHORT[0]) as bench:
         assert not bench.eye.at_rest
 
