@@ -182,7 +182,8 @@ class Gate:
             return
         counted = before.counted if before.moving and before.counted > NEVER else heard
         for last in (heard, counted):
-            if now - last > loss:
-                after.floor, after.right = max(after.floor, last + loss), NEVER
+            if now - last > loss:  # what begins within the age of any command begins now, loss or no loss
+                begins = min(last + loss, now - self._deadlines.max_age)
+                after.floor, after.right = max(after.floor, begins), NEVER
         if after.moving and proof.began <= heard < now - silence:  # the same claim, heard again
             after.resumed = now

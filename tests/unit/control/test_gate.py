@@ -82,6 +82,13 @@ def test_of_a_lost_link_the_first_two_seconds_are_no_beginning(gate: Gate) -> No
     assert gate.judge(proof(104.1, seq=3, began=103.1), True, 104.1) is None
 
 
+def test_a_beginning_that_is_heard_at_once_is_one_even_within_them(gate: Gate) -> None:
+    """Whoever paused for just two seconds begins by the beat heard last, which is a little older."""
+    assert gate.judge(proof(101.0, seq=1), True, 101.0) is None
+    assert gate.judge(proof(103.05, seq=2, began=102.95), True, 103.05) is None
+    assert gate.judge(proof(103.10, seq=3, began=102.95), True, 103.10) is None
+
+
 def test_only_what_begins_after_a_rest_counts(gate: Gate) -> None:
     gate.begin_after(102.0)
     gate.begin_after(101.5)

@@ -371,3 +371,12 @@ def test_after_a_start_a_planner_pauses_unless_its_owner_said_otherwise(resume: 
 def test_whoever_can_prove_what_is_said_never_drives_on_after_a_start() -> None:
     with pytest.raises(ValueError, match=r'resume is for trust = "arrival", found it at sources\.nav'):
         DriveSettings(sources={"nav": Source(10, resume=True)})
+
+
+@pytest.mark.parametrize("seconds", [0.6, 1.5, 1.94, 1.98, 2.0, 2.02, 2.06, 2.1, 2.2, 3.0])
+def test_a_program_that_paused_begins_anew_however_long_it_paused(seconds: float) -> None:
+    """Its beats are a little old, so two seconds after its last word it may begin a little before that."""
+    robot = Robot()
+    assert moves(robot.hold(FORWARD, 0.5))
+    robot.wait(seconds)
+    assert moves(robot.hold(FORWARD, 0.3, age=0.1))

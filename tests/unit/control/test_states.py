@@ -344,7 +344,7 @@ DEFECTS: dict[str, tuple[Sabotage, bool]] = {
 def test_the_walk_finds_a_defect_and_so_does_the_judge_where_it_must(name: str) -> None:
     sabotage, judge_too = DEFECTS[name]
     world = World(Random(2), sabotage)
-    while world.steps < 60_000 and not (world.unsafe and (world.alarm or not judge_too)):
+    while world.steps < 200_000 and not (world.unsafe and (world.alarm or not judge_too)):
         walk(world, world.steps + 500)
     assert world.unsafe
     if judge_too:

@@ -114,7 +114,7 @@ class Truth:
         if last and told.number <= last.number:
             return
         if last and last.moving and now - last.at > LINK_LOSS:
-            self.lost[told.sender] = last.at + LINK_LOSS
+            self.lost[told.sender] = min(last.at + LINK_LOSS, now - MAX_AGE)
         if told.moving and now - max(told.began, last.at if last and last.moving else NEVER) > LINK_LOSS:
             self.dead.add((told.sender, told.began))
         claim = (told.sender, told.began)
