@@ -1,4 +1,9 @@
-"""How pytest runs claims of time: last, again when they could not be judged, and told at the end."""
+"""How pytest runs claims of time: last, again when they could not be judged, and told at the end.
+
+A claim of order can meet a machine as well that keeps a robot from its core: whoever drove must begin
+anew then, and what a test awaits never comes. Where that was measured, it was not judged either. What
+must not be, such as motion after a stop, no machine excuses.
+"""
 
 import json
 import os
@@ -9,6 +14,7 @@ import pytest
 import rig
 from _pytest.runner import runtestprotocol
 from _pytest.terminal import TerminalReporter
+from stalls import Stalls
 from verdict import NotJudged, waits
 
 from zteleop.chaos.waiting import await_quiet
@@ -21,10 +27,18 @@ IN_A_ROW = 3
 """runs in which the same test may not"""
 ALONE = 20
 """timing tests at least, of which a share can be told"""
+STALL = 0.15
+"""s without a core that a robot may notice: its steps are due every 0.05 s, and late after 0.2 s"""
+stalls = Stalls(lambda: [os.getpid(), *rig.pids()])
 
 
 def is_timing(item: pytest.Item) -> bool:
     return item.get_closest_marker("timing") is not None
+
+
+def is_order(item: pytest.Item) -> bool:
+    """Say whether a test has processes, and awaits what they do."""
+    return not is_timing(item) and "unit" not in item.path.parts
 
 
 @pytest.hookimpl(trylast=True)
@@ -34,15 +48,15 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 def pytest_runtest_protocol(item: pytest.Item, nextitem: pytest.Item | None) -> bool | None:
-    """Try a claim of time again, with everything made anew, for as long as it cannot be judged."""
-    if not is_timing(item):
-        return None
+    """Try a test again, with everything made anew, for as long as it cannot be judged."""
     item.ihook.pytest_runtest_logstart(nodeid=item.nodeid, location=item.location)
     for number in range(TRIES):
         if number:
+            item.session._setupstate.teardown_exact(None)
             await_quiet(QUIET_WITHIN)
             item._initrequest()  # type: ignore[attr-defined]
-        reports = runtestprotocol(item, nextitem=nextitem, log=False)
+        with stalls.watched(is_order(item)):
+            reports = runtestprotocol(item, nextitem=nextitem, log=False)
         if not any(words_of(report) for report in reports):
             break
     for report in reports:
@@ -56,13 +70,20 @@ def pytest_runtest_makereport(
     item: pytest.Item, call: pytest.CallInfo[None]
 ) -> Iterator[None]:  # yields the report, returns it
     report = yield
-    if call.excinfo and call.excinfo.errisinstance(NotJudged):
-        report.outcome, report.longrepr, report.not_judged = "passed", None, str(call.excinfo.value)
+    if call.excinfo and (words := why_not_judged(item, call.excinfo.value)):
+        report.outcome, report.longrepr, report.not_judged = "passed", None, words
     elif report.failed and call.when == "call":
         report.sections += [(f"what {name} said", text) for name, text in rig.words() if text]
     if call.when == "teardown":
         rig.forget_the_ended()
     return report
+
+
+def why_not_judged(item: pytest.Item, error: BaseException) -> str:
+    """Return what kept a test from a verdict; nothing where it has one."""
+    if isinstance(error, rig.Unmet) and is_order(item) and stalls.longest >= STALL:
+        return f"a process waited {stalls.longest:.3f} s for a core: {str(error).splitlines()[0]}"
+    return str(error) if isinstance(error, NotJudged) else ""
 
 
 def words_of(report: pytest.TestReport) -> str:
@@ -76,9 +97,9 @@ def pytest_report_teststatus(report: pytest.TestReport) -> tuple[str, str, str] 
 def pytest_terminal_summary(terminalreporter: TerminalReporter) -> None:
     """Tell what was not judged, and what the machine did meanwhile."""
     unjudged = terminalreporter.stats.get("not judged", [])
-    if waits:
+    if waits or unjudged:
         terminalreporter.write_sep("-", "claims of time")
-        longest = max(wait.waited for wait in waits)
+        longest = max((wait.waited for wait in waits), default=0.0)
         terminalreporter.write_line(
             f"{len(waits)} claims, {len(unjudged)} tests not judged, longest wait for a core {longest:.3f} s"
         )
@@ -94,7 +115,7 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
     if reporter is None or not timing:
         return
     unjudged = {report.nodeid for report in reporter.stats.get("not judged", [])}
-    rows = Ledger(ledger_file()).note(timing, unjudged)
+    rows = Ledger(ledger_file()).note([item.nodeid for item in session.items], unjudged)
     stuck = sorted(nodeid for nodeid, row in rows.items() if row >= IN_A_ROW)
     if len(unjudged) > AT_MOST * max(len(timing), ALONE) or stuck:
         session.exitstatus = session.exitstatus or pytest.ExitCode.TESTS_FAILED

@@ -42,6 +42,13 @@ os.execv(sys.executable, [sys.executable, *sys.argv[1:]])
 """
 
 
+class Unmet(AssertionError):  # noqa: N818  not always an error of the product
+    """What was awaited never came: a machine alone can do that, which keeps a robot from its core.
+
+    Whoever drove must begin anew then, and a test does not. See `judging.py`.
+    """
+
+
 def free_port() -> int:
     with closing(socket.socket()) as probe:
         probe.bind(("127.0.0.1", 0))
@@ -52,7 +59,8 @@ def until(condition: Callable[[], object], what: str) -> None:
     """Wait for what no event tells of, such as a register; how long it takes is `verdict`'s to judge."""
     began = time.monotonic()
     while not condition():
-        assert time.monotonic() - began < PATIENCE, f"not within {PATIENCE:g} s: {what}"
+        if time.monotonic() - began >= PATIENCE:
+            raise Unmet(f"not within {PATIENCE:g} s: {what}")
         time.sleep(0.0005)
 
 
@@ -75,6 +83,12 @@ _started: list["Process"] = []
 def words() -> list[tuple[str, str]]:
     """Return the command and the last words of every process that was started and not forgotten."""
     return [(" ".join(process.command[-9:])[-100:], process.text[-3000:]) for process in _started]
+
+
+def pids() -> list[int]:
+    """Return every process that was started and runs, an actuator after its watchdog."""
+    found = [(process.process.pid, process.child) for process in _started if process.process.poll() is None]
+    return [pid for pair in found for pid in pair if pid]
 
 
 def forget_the_ended() -> None:
@@ -128,7 +142,8 @@ class Process:
         """Wait for a line that holds a text."""
         with self._said:
             found = self._said.wait_for(lambda: next((x for x in self.lines if text in x), None), PATIENCE)
-        assert found, f"never said {text!r}:\n{self.text}"
+        if not found:
+            raise Unmet(f"never said {text!r}:\n{self.text}")
         return found
 
     def signal(self, number: int) -> None:
@@ -210,7 +225,8 @@ class Terminal(Process):
 
         with self._said:
             seen = self._said.wait_for(found, PATIENCE)
-        assert seen, f"never showed {texts}:\n{self.screen}"
+        if not seen:
+            raise Unmet(f"never showed {texts}:\n{self.screen}")
         return self.screen
 
     def is_as_found(self) -> None:
@@ -271,6 +287,11 @@ class Watch:
     def __exit__(self, *exc: object) -> None:
         self._ended.set()
         self._thread.join()
+
+    def saw_only(self, *pulses: tuple[int, int]) -> None:
+        """Assert that whoever drives was never disturbed."""
+        if self.seen != set(pulses):
+            raise Unmet(f"expected {pulses} all the time, saw {self.changes}")
 
     def _look(self) -> None:
         while True:

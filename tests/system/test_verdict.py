@@ -1,6 +1,7 @@
 """The meter can tell waiting from working, and a run of tests does what its verdicts say."""
 
 import os
+import re
 import subprocess
 import sys
 import time
@@ -66,14 +67,38 @@ CONFTEST = """
 from judging import *
 import judging
 judging.await_quiet = lambda patience: print("waits for quiet")
+judging.stalls._pids = lambda: PIDS
+PIDS = []
 """
 TEST = """
 import pytest
+from rig import Unmet
+from stall import stall
 from verdict import NotJudged, excusable, judged
 
 TRIED = []
 
 {tests}
+"""
+STALL = f"""
+import os, subprocess, sys, time
+from conftest import PIDS
+
+def stall():
+    spin = "import os; os.sched_setaffinity(0, [{CORE}]); print(flush=True)\\nwhile True: pass"
+    idle = "import os; os.sched_setscheduler(0, os.SCHED_IDLE, os.sched_param(0))\\n" + spin
+    both = [
+        subprocess.Popen([sys.executable, "-c", text], stdout=subprocess.PIPE) for text in (idle, spin, spin)
+    ]
+    PIDS[:] = [process.pid for process in both]
+    for process in both:
+        process.stdout.readline()
+    time.sleep(0.7)
+    for process in reversed(both):
+        process.kill()
+        process.wait()
+        process.stdout.close()
+        time.sleep(0.2)  # the idle one has the core again, and the wait is seen
 """
 OTHERS = """
 @pytest.mark.timing
@@ -94,6 +119,7 @@ class Run:
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         (folder / "conftest.py").write_text(CONFTEST)
+        (folder / "stall.py").write_text(STALL)
         (folder / "pytest.ini").write_text("[pytest]\nmarkers = timing: a duration\n")
 
     def __call__(self, tests: str, others: str = OTHERS) -> tuple[int, str]:
@@ -149,6 +175,36 @@ def test_what_a_machine_alone_can_break_is_excused_only_by_it(run: Run) -> None:
     assert (code, "NOT JUDGED" in text) == (0, True), text
     code, text = run(timing(busy.format(slack=9.0)))
     assert (code, "NOT JUDGED" in text) == (1, False), text
+
+
+ORDER = "def test_it():\n    TRIED.append(1)\n    {body}\n"
+
+
+def test_what_a_machine_kept_from_happening_is_awaited_again(run: Run) -> None:
+    code, text = run(ORDER.format(body="stall()\n    if len(TRIED) < 2: raise Unmet('nothing came')"))
+    assert (code, text.count("waits for quiet"), "NOT JUDGED" in text) == (0, 1, False), text
+    code, text = run(ORDER.format(body="stall()\n    raise Unmet('nothing came')"))
+    assert (code, text.count("waits for quiet")) == (0, 2), text
+    assert re.search(
+        r"NOT JUDGED test_it.py::test_it: a process waited \d\.\d+ s for a core: nothing came", text
+    )
+
+
+@pytest.mark.parametrize(
+    "body", ["raise Unmet('nothing came')", "stall()\n    assert False, 'it moved after a stop'"]
+)
+def test_what_never_came_on_a_quiet_machine_or_must_not_be_fails_at_once(run: Run, body: str) -> None:
+    code, text = run(ORDER.format(body=body))
+    assert (code, text.count("waits for quiet")) == (1, 0), text
+
+
+def test_what_a_module_shares_is_made_anew_for_another_try(run: Run) -> None:
+    shared = "@pytest.fixture(scope='module')\ndef shared():\n    return []\n\n"
+    body = (
+        "shared.append(1)\n    stall()\n    assert len(shared) == 1\n    if len(TRIED) < 2: raise Unmet('no')"
+    )
+    code, text = run(shared + ORDER.format(body=body).replace("test_it()", "test_it(shared)"))
+    assert (code, text.count("waits for quiet")) == (0, 1), text
 
 
 def test_too_many_without_a_verdict_close_the_gate(run: Run) -> None:

@@ -70,7 +70,7 @@ def test_a_second_actuator_of_the_same_robot_disturbs_nobody(rig: Rig) -> None:
     with bench.driven(), Watch(rig) as watch:
         second = rig.join("actuator", "--config", os.devnull)
         assert second.ends() == 1
-        assert watch.seen == {DRIVEN}
+        watch.saw_only(DRIVEN)
     assert "robot bench has an actuator already" in second.text
 
 
@@ -163,7 +163,7 @@ def test_a_sender_whose_clock_is_ten_hours_ahead_drives_as_any_other(rig: Rig) -
         status = hear(bench.statuses, lambda status: status.state == "driving", "driving")
         for _ in every(0.1, 10):
             pass
-    assert watch.seen == {DRIVEN}
+    watch.saw_only(DRIVEN)
     assert (status.source, status.refused) == ("keyboard", 0)
     sender.signal(signal.SIGKILL)
     bench.rests()

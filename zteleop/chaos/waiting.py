@@ -63,13 +63,27 @@ class Meter:
     @property
     def waited(self) -> float:
         """Seconds, up to now."""
+        return sum(self._waits()) + self._taken
+
+    @property
+    def longest(self) -> float:
+        """Seconds, up to now, of the one process that waited longest."""
+        return max(self._waits(), default=0.0) + self._taken
+
+    def _waits(self) -> list[float]:
+        """Return seconds by process."""
         self.look()
         longest: dict[int, int] = {}
         for thread, nanoseconds in self._last.items():
             waited = nanoseconds - self._first.get(thread, 0)
             longest[thread.pid] = max(longest.get(thread.pid, 0), waited)
+        return [nanoseconds / 1e9 for nanoseconds in longest.values()]
+
+    @property
+    def _taken(self) -> float:
+        """Seconds that the host took from one core."""
         stolen = max((now - then for then, now in zip(self._stolen, self._steal(), strict=False)), default=0)
-        return sum(longest.values()) / 1e9 + stolen / os.sysconf("SC_CLK_TCK")
+        return stolen / os.sysconf("SC_CLK_TCK")
 
     def _read(self) -> dict[Thread, int]:
         """Return nanoseconds by thread; nothing where the kernel does not count, or a process is gone."""
