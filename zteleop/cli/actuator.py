@@ -115,15 +115,17 @@ def _yield_to_the_first(holders: list[str], robot: str) -> None:
     _only_one([holder for holder in holders if holder < presence.process()], robot)
 
 
-def _switch(node: Node, pin: OutputEnable | None) -> Callable[[bool], None]:
-    """Return what lets the chip's outputs through, or cuts them, where a pin can."""
+def _switch(node: Node, pin: OutputEnable | None) -> Callable[[bool], bool]:
+    """Return what lets the chip's outputs through, or cuts them, and says whether a pin did."""
 
-    def switch(on: bool) -> None:
+    def switch(on: bool) -> bool:
         try:
             if pin:
                 pin.enable() if on else pin.disable()
         except DeviceError as error:
             node.log.error(str(error), "oe")
+            return False
+        return pin is not None
 
     return switch
 

@@ -41,5 +41,5 @@ def run(arguments: argparse.Namespace) -> None:
         open_driver(name, chip).close()
     except DeviceError as error:
         raise DeviceError(f"neutral was written, but {error}, for it goes on writing") from error
-    pulses = calibration.pulses(calibration.rest)
+    pulses = calibration.pulses(calibration.neutral_us)
     print("at rest: " + ", ".join(f"{p.name} {p.pulse_us:.0f} us = {p.duty_ticks} ticks" for p in pulses))

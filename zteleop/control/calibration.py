@@ -19,11 +19,11 @@ class Calibration:
         """Return each channel's pulse width, within its ends."""
         return {servo.channel: servo.pulse_us(wheels[name]) for name, servo in self._servos.items()}
 
-    def pulses(self, wheels: Wheels) -> list[Pulse]:
+    def pulses(self, pulse_us: Mapping[int, float]) -> list[Pulse]:
         """Return each channel's pulse in every unit."""
-        widths = self.pulse_us(wheels)
+        widths = {name: pulse_us[servo.channel] for name, servo in self._servos.items()}
         return [
-            Pulse(name, servo.channel, wheels[name], width, round(width / self._tick_us))
+            Pulse(name, servo.channel, servo.fraction(width), width, round(width / self._tick_us))
             for (name, servo), width in zip(self._servos.items(), widths.values(), strict=True)
         ]
 

@@ -5,16 +5,25 @@ from collections.abc import Iterator
 from zteleop.control import curvature
 from zteleop.control.cap import Bound
 from zteleop.control.drive import Drive, Step
+from zteleop.control.evidence import Evidence
 from zteleop.control.mux import Claim
-from zteleop.messages import Layer, Pwm, Twist
+from zteleop.messages import Confirmed, Layer, Pwm, Twist
 
 RECENT = 10.0
 """s for which a refusal is worth a sentence."""
+OLD = 0.1
+"""s after which pulses are no longer what the robot means now"""
+CONFIRMED: dict[Confirmed, str] = {
+    "read": "read back from the chip",
+    "cut": "cut off by the OE pin",
+    "": "not confirmed by the chip: cut its power",
+}
+"""How a stop is known to have reached the wheels."""
 _LEAST = 0.005
 """m/s or rad/s below which two twists are one."""
 
 
-def layers(drive: Drive, step: Step, now: float) -> list[Layer]:
+def layers(drive: Drive, step: Step, chip: Evidence, now: float) -> list[Layer]:
     """Return the sentences, from the operator to the wheels."""
     return [
         Layer("operator", _operator(step, now)),
@@ -23,7 +32,7 @@ def layers(drive: Drive, step: Step, now: float) -> list[Layer]:
         Layer("rest", _rest(drive, step, now)),
         Layer("cap", _cap(drive, step)),
         Layer("limiter", _limiter(drive, step)),
-        Layer("wheels", _wheels(drive, step)),
+        Layer("wheels", _wheels(drive, chip, now)),
     ]
 
 
@@ -55,9 +64,9 @@ def _refusals(drive: Drive, now: float) -> Iterator[tuple[str, str]]:
 
 
 def _rest(drive: Drive, step: Step, now: float) -> str:
-    held = drive.holds.strongest
-    if held:
-        return f"{held.state} for {now - held.since:.1f} s: {held.why}"
+    if drive.holds:
+        held = [f"{hold.state} for {now - hold.since:.1f} s: {hold.why}" for hold in drive.holds.in_order]
+        return "; ".join(held)
     return "free to move" if step.claim else f"{step.state}: {step.why}"
 
 
@@ -123,9 +132,15 @@ def _bounds(drive: Drive, step: Step, claim: Claim, asked: Twist, applied: Twist
         yield "it turns no tighter"
 
 
-def _wheels(drive: Drive, step: Step) -> str:
-    pulses = drive.calibration.pulses(step.wheels)
-    return ", ".join(f"{p.name} {p.pulse_us:.0f} us = {p.duty_ticks} ticks" for p in pulses)
+def _wheels(drive: Drive, chip: Evidence, now: float) -> str:
+    """Return what the chip took, however long ago, and what is known of a stop."""
+    pulses = drive.calibration.pulses(chip.pulse_us)
+    said = [", ".join(f"{p.name} {p.pulse_us:.0f} us = {p.duty_ticks} ticks" for p in pulses)]
+    if now - chip.written > OLD:
+        said.append(f"which the chip took {now - chip.written:.1f} s ago, and nothing since")
+    if drive.latch.stops:
+        said.append(CONFIRMED[chip.confirmed])
+    return "; ".join(said)
 
 
 def wanted(drive: Drive, step: Step) -> Twist:

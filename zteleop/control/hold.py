@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 from zteleop.messages import State
 
-HOLDS: tuple[State, ...] = ("stopped", "fault", "starting")
+HOLDS: tuple[State, ...] = ("fault", "stopped", "starting")
 """States of a hold after which everybody begins anew; of several reasons the first of these is shown."""
 PAUSE: State = "link lost"
 """The state of a hold that ends as an interruption does, and is shown after all others."""
@@ -31,9 +31,14 @@ class Holds:
         return reason in self._holds
 
     @property
+    def in_order(self) -> list[Hold]:
+        """All reasons, the one to tell people first."""
+        return sorted(self._holds.values(), key=lambda hold: (*HOLDS, PAUSE).index(hold.state))
+
+    @property
     def strongest(self) -> Hold | None:
-        """The reason to tell people."""
-        return min(self._holds.values(), key=lambda hold: (*HOLDS, PAUSE).index(hold.state), default=None)
+        """The reason to tell people where there is room for one."""
+        return next(iter(self.in_order), None)
 
     @property
     def pass_by_themselves(self) -> bool:

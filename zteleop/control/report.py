@@ -1,6 +1,7 @@
 """What an actuator says of itself."""
 
 from zteleop.control.drive import Drive, DriveSettings, Step
+from zteleop.control.evidence import Evidence
 from zteleop.control.explain import slowed, wanted
 from zteleop.control.refusals import Turned
 from zteleop.messages import DriveStatus, Refusals, Refused, Vehicle
@@ -22,11 +23,8 @@ def describe(settings: DriveSettings, tick_us: float, ready: bool = True) -> Veh
     )
 
 
-def status(drive: Drive, step: Step, written: float, unkept: str = "") -> DriveStatus:
-    """Return what a robot does; `written` is when the step's pulses were on the chip.
-
-    `unkept` says why its stops are on no disk.
-    """
+def status(drive: Drive, step: Step, chip: Evidence, unkept: str = "") -> DriveStatus:
+    """Return what a robot does; `unkept` says why its stops are on no disk."""
     claim = step.claim
     return DriveStatus(
         state=step.state,
@@ -35,11 +33,12 @@ def status(drive: Drive, step: Step, written: float, unkept: str = "") -> DriveS
         operator=f"{claim.sender:x}" if claim else "",
         wanted=wanted(drive, step),
         applied=drive.settings.mixer.unmix(step.wheels),
-        pulses=drive.calibration.pulses(step.wheels),
+        pulses=drive.calibration.pulses(chip.pulse_us),
         seq=claim.seq if claim else 0,
-        written=written,
+        written=chip.written,
         stops=list(drive.latch.stops),
         unkept=unkept,
+        confirmed=chip.confirmed,
         refused=drive.refused,
         clamped=drive.clamped,
         max_speed=step.bound.speed,

@@ -6,6 +6,7 @@ from zteleop.errors import MessageError, nearest
 from zteleop.messages.drive import (
     Beat,
     Channel,
+    Confirmed,
     DriveStatus,
     Pulse,
     Pwm,
@@ -137,6 +138,7 @@ __all__ = [
     "Button",
     "Channel",
     "CompressedImage",
+    "Confirmed",
     "DescribeParametersRequest",
     "DescribeParametersResponse",
     "DockStatus",

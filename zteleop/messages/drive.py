@@ -10,6 +10,7 @@ from zteleop.messages.safety import Stop
 from zteleop.messages.std import Int16
 
 State = Literal["starting", "idle", "driving", "link lost", "operator idle", "stopped", "fault"]
+Confirmed = Literal["", "read", "cut"]
 
 
 class Pwm(Message):
@@ -70,7 +71,7 @@ class Vehicle(Message):
 
 
 class Pulse(Message):
-    """What one channel is told now."""
+    """What one channel of the chip took last."""
 
     ros_type: ClassVar[str] = "zteleop_msgs/msg/Pulse"
 
@@ -98,9 +99,11 @@ class DriveStatus(Message):
     seq: int
     """Of the last command accepted."""
     written: float
-    """When its pulses were on the chip, by the robot's clock."""
+    """When the chip took these pulses, by the robot's clock; what it does not take is never shown."""
     stops: list[Stop]
     """In force, the oldest first; each stays until a release names its id."""
+    confirmed: Confirmed
+    """How a robot with a stop in force is known to stand: neutral was read back, or its outputs are cut."""
     unkept: str
     """Why they would not outlive a restart; empty when they would."""
     refused: int

@@ -81,7 +81,6 @@ class Actuator:
             self._drive.stop(stop, self._since)
         self._watched = clock.now()
         self._step = self._drive.step(self._watched)
-        self._written = self._watched
         self._beats = node.publisher("beat", Beat)
         self._statuses = node.publisher("drive_status", DriveStatus)
         self._vehicles = node.publisher("vehicle", Vehicle)
@@ -176,7 +175,6 @@ class Actuator:
         self._notice_pause(now)
         before, self._step = self._step, self._drive.step(now)
         self._output.write(self._step.pulse_us, now)
-        self._written = clock.now()
         self._link.report(Report(now, stand(self._drive, self._since)))
         if self._step.state != before.state:
             self._node.log.info(f"{self._step.state}: {self._step.why}")
@@ -207,6 +205,8 @@ class Actuator:
     def _hear_watchdog(self) -> None:
         words = self._link.read()
         now = self._watched = clock.now()
+        if words.hears is not None:
+            self._output.is_cut = words.cut
         for stop in words.stops:
             self._obey(stop)
         if words.hears:
@@ -226,8 +226,9 @@ class Actuator:
         if said.engaged:
             self._stop_file.promise(latch.stops)
         self._advance()
+        self._output.confirm()
         self._stop_file.tend()
-        self._tell_status()  # whoever pressed waits for what the disk said
+        self._tell_status()  # whoever pressed waits for what the chip and the disk said
         self._journal.event("stop" if said.engaged else "release", by=said.by, why=said.why, id=said.id)
 
     def _tell_chip(self, words: str) -> None:
@@ -245,11 +246,11 @@ class Actuator:
         self._tell_status()
 
     def _tell_status(self) -> None:
-        self._statuses.publish(status(self._drive, self._step, self._written, self._stop_file.unkept))
+        self._statuses.publish(status(self._drive, self._step, self._output.evidence, self._stop_file.unkept))
 
     def _describe(self) -> None:
         self._vehicles.publish(describe(self._settings, self._driver.tick_us, self._step.state != "starting"))
-        self._whys.publish(Why(layers(self._drive, self._step, clock.now())))
+        self._whys.publish(Why(layers(self._drive, self._step, self._output.evidence, clock.now())))
         self._tell_refused(clock.now())
 
     def _tell_refused(self, now: float) -> None:

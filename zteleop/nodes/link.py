@@ -19,6 +19,8 @@ HEARS = b"h"
 """The watchdog lives, and hears the bus."""
 DEAF = b"d"
 """The watchdog lives, and does not hear the actuator's beats on the bus."""
+CUT = {HEARS: b"H", DEAF: b"D"}
+"""The same, and no pulse leaves the chip: its outputs are cut."""
 STOP = b"s"
 """A stop follows, two bytes of its length before it: obey it now."""
 UNWATCHED = 75
@@ -65,6 +67,8 @@ class Words(NamedTuple):
     hears: bool | None
     """whether it hears the bus; None when it said nothing of that"""
     stops: tuple[Stop, ...] = ()
+    cut: bool = False
+    """whether it has cut the chip's outputs, where it said anything of the bus"""
 
 
 class ActuatorEnd(End):
@@ -83,7 +87,7 @@ class ActuatorEnd(End):
         if data is None:
             raise DeviceError("the watchdog is gone; the actuator does not run without one")
         self._rest += data
-        hears, stops = None, []
+        hears, cut, stops = None, False, []
         while self._rest:
             word, length = self._rest[:1], 1
             if word == STOP:
@@ -92,9 +96,9 @@ class ActuatorEnd(End):
                     break
                 stops.append(_stop(self._rest[_STOP_HEAD.size : length]))
             else:
-                hears = word == HEARS
+                hears, cut = word in (HEARS, CUT[HEARS]), word in CUT.values()
             self._rest = self._rest[length:]
-        return Words(hears, tuple(stops))
+        return Words(hears, tuple(stops), cut)
 
 
 class WatchdogEnd(End):

@@ -5,8 +5,10 @@ from contextlib import suppress
 
 from zteleop.bus import clock
 from zteleop.control.drive import Drive
+from zteleop.control.evidence import Evidence
 from zteleop.drivers import PulseDriver
 from zteleop.errors import DeviceError
+from zteleop.messages import Confirmed
 
 FAILED_STEPS = 3
 """in a row that make a fault; each has written three times already"""
@@ -22,13 +24,23 @@ class Output:
     def __init__(self, driver: PulseDriver, drive: Drive, say: Callable[[str], object]) -> None:
         self._driver, self._drive, self._say = driver, drive, say
         self._neutral_us = drive.calibration.neutral_us
+        self._taken: Mapping[int, float] = self._neutral_us
+        self._written = 0.0
         self._failed = 0
-        self._broken = False
+        self._broken = self._reads_rest = False
+        self.is_cut = False
+        """The watchdog says that no pulse leaves the chip, whatever it was told."""
         self._repair_at = self._armed_at = 0.0
+
+    @property
+    def evidence(self) -> Evidence:
+        """What is known of the chip."""
+        known: Confirmed = "read" if self._reads_rest else "cut" if self.is_cut else ""
+        return Evidence(self._taken, self._written, known if self._drive.latch.stops else "")
 
     def start(self, now: float, arm: bool = True) -> None:
         """Bring the chip up at neutral; raises DeviceError when it does not come."""
-        self._driver.start(self._neutral_us)
+        self._start()
         if arm:
             self._arm(now)
 
@@ -37,7 +49,7 @@ class Output:
         if self._broken:
             return
         try:
-            self._driver.write(pulse_us)
+            self._take(pulse_us)
             self._failed = 0
         except DeviceError as error:
             self._failed += 1
@@ -52,6 +64,14 @@ class Output:
             self._look_twice()
         except DeviceError as error:
             self._break(str(error), now)
+        self.confirm()
+
+    def confirm(self) -> None:
+        """Read back whether a robot that is stopped stands; what cannot be read is not known."""
+        self._reads_rest = False
+        if self._drive.latch.stops and not self._broken:
+            with suppress(DeviceError):
+                self._reads_rest = self._drive.calibration.at_rest(self._driver.read(self._neutral_us))
 
     def tend(self, now: float) -> None:
         """Write neutral to a chip at fault, repair it, and end the arming pause, when it is time."""
@@ -62,10 +82,18 @@ class Output:
 
     def rest(self) -> None:
         """Leave neutral behind; raises DeviceError when the chip does not take it."""
-        self._driver.write(self._neutral_us)
+        self._take(self._neutral_us)
 
     def close(self) -> None:
         self._driver.close()
+
+    def _take(self, pulse_us: Mapping[int, float]) -> None:
+        self._driver.write(pulse_us)
+        self._taken, self._written = pulse_us, clock.now()
+
+    def _start(self) -> None:
+        self._driver.start(self._neutral_us)
+        self._taken, self._written = self._neutral_us, clock.now()
 
     def _look_twice(self) -> None:
         try:
@@ -80,18 +108,18 @@ class Output:
         """
         began = clock.now()
         with suppress(DeviceError):
-            self._driver.write(self._neutral_us)
+            self._take(self._neutral_us)
         return clock.now() - began <= SLOW
 
     def _break(self, words: str, now: float) -> None:
-        self._broken, self._repair_at = True, now
+        self._broken, self._reads_rest, self._repair_at = True, False, now
         self._say(f"the chip is at fault: {words}")
         self._drive.hold(FAULT, "fault", words, now)
 
     def _repair(self, now: float) -> None:
         self._repair_at = now + REPAIR_EVERY
         try:
-            self._driver.start(self._neutral_us)
+            self._start()
         except DeviceError as error:
             self._drive.hold(FAULT, "fault", str(error), now)
             return

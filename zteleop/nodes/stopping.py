@@ -15,7 +15,10 @@ EVERY, PATIENCE = 0.05, 2.0
 REPEAT = 3.0
 """s for which a stop is said, also after the answer: longer than any loss of the link that heals by itself"""
 SETTLED = 0.5
-"""s after which what a robot says of its stop is final, as far as whoever waits is concerned"""
+"""s since a stop was heard, after which whoever waits is told what chip and disk have not confirmed"""
+SEEN = {"read": "neutral read back from its chip", "cut": "its outputs are cut"}
+"""How a robot is known to stand."""
+UNSEEN = "not confirmed by the chip: cut its power"
 NEVER = float("-inf")
 _ID_BITS = 53  # what every JSON reader can count
 _LONGEST = 200
@@ -35,6 +38,8 @@ class Stopping:
         """The stops that were in force when it was asked, as far as anybody has seen."""
         self._seen: DriveStatus | None = None
         self._since_then: DriveStatus | None = None
+        self._heard = NEVER
+        """When a status first showed the stop asked for."""
         self._is_over = False
         """The stop asked for was acknowledged, and is no longer in force."""
         self.state: Literal["", "pending", "done", "failed"] = ""
@@ -43,7 +48,7 @@ class Stopping:
 
     @property
     def unanswered(self) -> bool:
-        """A stop was asked for, and nobody knows whether it is in force."""
+        """A stop was asked for, and nobody knows whether the robot stands."""
         return self.state == "failed" and self._engages
 
     @property
@@ -82,12 +87,12 @@ class Stopping:
         self._seen, self._since_then = status or self._seen, status or self._since_then
         if status and self._before is None:  # where none was seen at the press, the first may be older
             self._before = _ids(status.stops)
-        if status and self._engages and self.state == "done":
+        if status and self._engages and self._heard > NEVER:
             self._is_over |= not self._shows(status)
         if self.state == "pending":
             self._go_on(status, now)
         elif self.unanswered and status and self._shows(status):
-            self._end("done", f"{self.robot} is stopped (acknowledged late){_unkept(status)}", now)
+            self._hear(status, now)
         if (self.state == "pending" or self.repeats(now)) and self._is_due(now):
             self._say(now)
         return self.state != "pending"
@@ -112,7 +117,7 @@ class Stopping:
     def _ask(self, said: list[Stop], now: float) -> None:
         self._before = _ids(self._seen.stops) if self._seen else None
         self.state, self._asked, self._since = "pending", said, now
-        self._since_then, self._is_over = None, False
+        self._since_then, self._heard, self._is_over = None, NEVER, False
         self._say(now)
 
     def _is_due(self, now: float) -> bool:
@@ -126,16 +131,26 @@ class Stopping:
 
     def _go_on(self, status: DriveStatus | None, now: float) -> None:
         if status and self._engages and self._shows(status):
-            self._confirm(status, now)
+            self._hear(status, now)
         elif status and not self._engages and not _ids(status.stops) & _ids(self._asked):
             self._find_rest(status, now)
         elif now - self._since >= PATIENCE:
             self._give_up(now)
 
-    def _confirm(self, status: DriveStatus, now: float) -> None:
-        """Say that it is stopped, once the disk has it too, or does not take it."""
-        if not status.unkept or now - self._since >= SETTLED:
-            self._end("done", f"{self.robot} is stopped{self._took(now)}{_unkept(status)}", now)
+    def _hear(self, status: DriveStatus, now: float) -> None:
+        """Say that it is stopped, once the chip shows it and the disk has it, or that they do not."""
+        self._heard = now if self._heard == NEVER else self._heard
+        settled = now - self._heard >= SETTLED
+        if status.confirmed and (settled or not status.unkept):
+            seen = f"{SEEN[status.confirmed]}{', late' if self.unanswered else f' {self._within(now)}'}"
+            self._end("done", f"{self.robot} is stopped ({seen}){_unkept(status)}", now)
+        elif settled:
+            self._fail_unseen(f" ({status.why})" if status.state == "fault" else "", now)
+
+    def _fail_unseen(self, cause: str, now: float) -> None:
+        words = f"{self.robot} heard the stop, {UNSEEN}{cause}"
+        if words != self.words:
+            self._end("failed", words, now)
 
     def _shows(self, status: DriveStatus) -> bool:
         """Say whether a stop is in force: by its id, or by what has taken its place."""
@@ -154,7 +169,9 @@ class Stopping:
         elif status.state in HOLDS:
             self._end("done", f"the stop of {self.robot} is over, but it is kept at rest: {status.why}", now)
         else:
-            self._end("done", f"{self.robot} may drive again, from neutral{self._took(now)}", now)
+            self._end(
+                "done", f"{self.robot} may drive again, from neutral (acknowledged {self._within(now)})", now
+            )
 
     def _give_up(self, now: float) -> None:
         """Say what to do now."""
@@ -163,13 +180,16 @@ class Stopping:
             what = f"has not acknowledged the release within {PATIENCE:g} s"
             self._end("failed", f"{self.robot} {what}; take it as stopped, and try again", now)
             return
+        if self._heard > NEVER:
+            self._fail_unseen(", and is no longer heard", now)
+            return
         what = f"has not acknowledged the stop within {PATIENCE:g} s"
         others = f", and rests only by that of {whose(seen.stops)}" if seen and seen.stops else ""
         advice = "cut its power, or run zteleop neutral on it"
         self._end("failed", f"{self.robot} {what}{others}: {advice}", now)
 
-    def _took(self, now: float) -> str:
-        return f" (acknowledged within {max(1.0, (now - self._since) * 1000):.0f} ms)"
+    def _within(self, now: float) -> str:
+        return f"within {max(1.0, (now - self._since) * 1000):.0f} ms"
 
     def _end(self, state: Literal["done", "failed"], words: str, now: float) -> None:
         self.state, self.words, self.ended = state, words, now

@@ -17,7 +17,7 @@ from zteleop.errors import DeviceError
 from zteleop.messages import Stop, WatchdogStatus
 from zteleop.nodes import service
 from zteleop.nodes.child import Child
-from zteleop.nodes.link import DEAF, HEARS, UNWATCHED
+from zteleop.nodes.link import CUT, DEAF, HEARS, UNWATCHED
 from zteleop.nodes.overhear import Overhearing
 from zteleop.nodes.recorder import Recorder
 from zteleop.nodes.stop_file import StopFile
@@ -33,6 +33,9 @@ LATE = 0.2
 """s between two ticks, after which the watchdog knows that it was stopped itself."""
 FORGIVE_EVERY = 2.0
 """s; a watchdog that is late all the time would otherwise hear no silence at all"""
+BLIND = 0.25
+"""s and `LOOKS` in a row without a look at the chip until its outputs are cut: it may repeat any pulses"""
+LOOKS = 3
 YIELD = 5
 """times as long as a look took, until the next one"""
 FAREWELL = 0.25
@@ -49,14 +52,14 @@ class Watchdog:
         hand: PulseDriver,
         child: Child,
         stop_file: StopFile,
-        enable: Callable[[bool], object] = lambda on: None,
+        enable: Callable[[bool], bool] = lambda on: False,
         recorder: Recorder | None = None,
     ) -> None:
         self._node, self._hand, self._child, self._stop_file = node, hand, child, stop_file
         self._recorder = recorder
         self._enable = enable
-        """Lets the chip's outputs through, or cuts them, where a pin can."""
-        self._is_cut = True
+        """Lets the chip's outputs through, or cuts them; says whether a pin did."""
+        self._is_cut, self._pin_cuts = True, False
         self._judge = Judge(settings, hand.tick_us, clock.now())
         self._ears = Overhearing(node, settings, self._judge, stop_file)
         self._statuses = node.publisher("watchdog", WatchdogStatus)
@@ -65,7 +68,9 @@ class Watchdog:
         self._start_patience = START
         self._standing: Standing | None = None
         """Of the actuator that is gone, where it was only late."""
-        self._look_after = clock.now()
+        self._look_after = self._seen = clock.now()
+        self._blind = 0
+        """How many looks in a row have failed"""
         self._at_rest = False
         self._why = "the actuator starts"
         self._exit_code: int | None = None
@@ -148,7 +153,8 @@ class Watchdog:
         report = self._child.newest
         hears = self._ears.hears(report.standing.epoch if report else None, clock.now())
         if self._child.link:
-            self._child.link.say(HEARS if hears else DEAF)
+            word = HEARS if hears else DEAF
+            self._child.link.say(CUT[word] if self._pin_cuts else word)
         service.notify("WATCHDOG=1")
 
     def _look(self) -> None:
@@ -160,15 +166,25 @@ class Watchdog:
             why = self._judge.look(self._hand.read(self._judge.neutral_us), clock.now())
         except DeviceError as error:
             self._node.log.warn(f"cannot read the chip: {error}", "read")
+            self._miss()
             return
         finally:  # on a slow bus whoever writes comes first
             self._look_after = began + YIELD * (clock.now() - began)
+        self._seen, self._blind = clock.now(), 0
         if why and not self._judge.stopped:
             self._engage(Stop(engaged=True, id=secrets.randbits(53), by="the watchdog", why=why))
         elif why:
             self._fell(why, 0.0)
         elif self._is_cut and self._child.ready and not self._judge.moving:
             self._cut(False)
+
+    def _miss(self) -> None:
+        """Cut the outputs of a chip that nobody can read any more."""
+        self._blind += 1
+        if self._blind >= LOOKS and clock.now() - self._seen > BLIND and not self._is_cut:
+            self._cut(True)
+            if self._pin_cuts:
+                self._node.log.error("the chip cannot be read: its outputs are cut until it can")
 
     def _engage(self, stop: Stop) -> None:
         self._node.log.error(f"stops the robot: {stop.why or stop.by}")
@@ -243,7 +259,7 @@ class Watchdog:
 
     def _cut(self, cut: bool) -> None:
         self._is_cut = cut
-        self._enable(not cut)
+        self._pin_cuts = self._enable(not cut) and cut
 
     def _finish(self) -> None:
         """Leave last, after neutral."""

@@ -48,7 +48,7 @@ class Robot(Node):
         for said in self.said.get(f"/{self.robot}/stop", Said("stop")).take():
             self.latch.obey(said)
         status = DriveStatus.zero()
-        status.stops = list(self.latch.stops)
+        status.stops, status.confirmed = list(self.latch.stops), "read"
         status.state, status.why = ("stopped", "a stop") if status.stops else self.calm
         for inbox in self.ears:
             inbox.waiting.append(status)
@@ -96,7 +96,7 @@ def typed(
 def test_a_stop_is_one_line_that_says_how_to_release_it(latch: Latch, typed: Type) -> None:
     assert typed(latch, "archangel", "--why", "a cat") == (
         0,
-        "archangel is stopped (acknowledged within 10 ms); "
+        "archangel is stopped (neutral read back from its chip within 10 ms); "
         "zteleop stop --release archangel lets it drive again, from neutral\n",
         "",
     )

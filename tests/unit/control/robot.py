@@ -1,9 +1,10 @@
 """A drive and the senders around it, on one clock; `now` is what the test says."""
 
 from zteleop.control.drive import Drive, DriveSettings, Step
+from zteleop.control.evidence import Evidence
 from zteleop.control.gate import Refusal
 from zteleop.control.proof import Prover
-from zteleop.messages import Beat, Pwm, Stop, Twist
+from zteleop.messages import Beat, Confirmed, Pwm, Stop, Twist
 
 TICK_US = 4.08
 NEUTRAL = {0: 1509.6, 1: 1530.0}
@@ -62,6 +63,10 @@ class Robot:
 
     def step(self) -> Step:
         return self.drive.step(self.now)
+
+    def chip(self, step: Step, confirmed: Confirmed = "", age: float = 0.0) -> Evidence:
+        """Return what is known of a chip that takes everything."""
+        return Evidence(step.pulse_us, self.now - age, confirmed)
 
 
 def moves(step: Step) -> bool:

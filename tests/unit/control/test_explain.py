@@ -14,13 +14,15 @@ from zteleop.control.limiter import Limits
 from zteleop.control.mixer import Differential
 from zteleop.control.mux import Source
 from zteleop.control.servo import Servo
-from zteleop.messages import Pwm, Twist
+from zteleop.messages import Confirmed, Pwm, Twist
 
 TANK = DriveSettings(mixer=Differential(), servos={"left": Servo(channel=0), "right": Servo(channel=1)})
 
 
-def says(robot: Robot) -> dict[str, str]:
-    return {layer.name: layer.says for layer in layers(robot.drive, robot.step(), robot.now)}
+def says(robot: Robot, confirmed: Confirmed = "", age: float = 0.0) -> dict[str, str]:
+    step = robot.step()
+    told = layers(robot.drive, step, robot.chip(step, confirmed, age), robot.now)
+    return {layer.name: layer.says for layer in told}
 
 
 def test_at_rest_every_layer_says_so_from_the_operator_to_the_wheels() -> None:
@@ -152,7 +154,8 @@ def test_a_reason_to_rest_is_told_with_its_age() -> None:
     robot.wait(2.0)
     assert says(robot)["rest"] == "fault for 2.0 s: the chip is silent"
     robot.stop(7)
-    assert says(robot)["rest"].startswith("stopped for 0.0 s: stopped by ann")
+    rest = says(robot)["rest"]
+    assert rest.startswith("fault for 2.0 s: the chip is silent; stopped for 0.0 s: stopped by ann")
 
 
 def test_who_waits_behind_the_one_who_drives_is_named() -> None:
@@ -199,6 +202,25 @@ def test_explaining_changes_nothing(command: Twist | Pwm) -> None:
     for robot in (one, other):
         robot.say(command)
         robot.wait(0.04)
-    layers(one.drive, one.step(), one.now)
+    says(one)
     other.step()
     assert one.wait(0.04) == other.wait(0.04)
+
+
+@pytest.mark.parametrize(
+    ("confirmed", "words"),
+    [
+        ("read", "read back from the chip"),
+        ("cut", "cut off by the OE pin"),
+        ("", "not confirmed by the chip: cut its power"),
+    ],
+)
+def test_how_a_stop_is_known_to_have_reached_the_wheels_is_told(confirmed: Confirmed, words: str) -> None:
+    robot = Robot()
+    assert words not in says(robot, confirmed)["wheels"]
+    robot.stop(7)
+    assert says(robot, confirmed)["wheels"].endswith(f" ticks; {words}")
+
+
+def test_pulses_that_the_chip_took_long_ago_are_told_as_such() -> None:
+    assert says(Robot(), age=1.2)["wheels"].endswith("; which the chip took 1.2 s ago, and nothing since")

@@ -18,7 +18,7 @@ def test_of_several_reasons_the_strongest_is_told_in_whatever_order_they_came(or
     holds = Holds()
     for state in order:
         holds.add(state, state, "", 1.0)
-    for state in ("stopped", "fault", "starting"):
+    for state in ("fault", "stopped", "starting"):
         assert holds.strongest.state == state
         assert holds.drop(state)
     assert not holds

@@ -1,19 +1,23 @@
 import pytest
 from unit.control.robot import FORWARD, TICK_US, Robot
 
-from zteleop.control.drive import DriveSettings
+from zteleop.control.drive import DriveSettings, Step
 from zteleop.control.limiter import Limits
 from zteleop.control.mixer import Differential
 from zteleop.control.report import describe, status
 from zteleop.control.servo import Servo
-from zteleop.messages import Pwm, Twist
+from zteleop.messages import DriveStatus, Pwm, Twist
+
+
+def told(robot: Robot, step: Step) -> DriveStatus:
+    return status(robot.drive, step, robot.chip(step))
 
 
 def test_status_tells_who_what_and_why() -> None:
     robot = Robot()
     step = robot.hold(Twist.planar(0.5, 0.5), 1.0)
-    said = status(robot.drive, step, written=3.0)
-    assert (said.state, said.source, said.operator, said.written) == ("driving", "keyboard", "1", 3.0)
+    said = told(robot, step)
+    assert (said.state, said.source, said.operator, said.written) == ("driving", "keyboard", "1", robot.now)
     assert (said.seq, said.refused, said.clamped) == (20, 0, 0)
     assert said.wanted == Twist.planar(0.5, 0.5)
     assert said.applied.linear.x == pytest.approx(0.5)
@@ -23,25 +27,25 @@ def test_status_tells_who_what_and_why() -> None:
 
 def test_at_rest_nobody_is_told_of() -> None:
     robot = Robot()
-    said = status(robot.drive, robot.step(), written=3.0)
+    said = told(robot, robot.step())
     assert (said.state, said.source, said.operator, said.seq, said.stops) == ("idle", "", "", 0, [])
     assert said.wanted == said.applied == Twist.planar()
 
 
 def test_ticks_are_told_as_the_twist_they_ask_for() -> None:
     robot = Robot()
-    said = status(robot.drive, robot.hold(Pwm(375, 500), 1.2), written=3.0)
+    said = told(robot, robot.hold(Pwm(375, 500), 1.2))
     assert said.wanted.linear.x == pytest.approx(3.0, abs=0.05)
 
 
 def test_status_tells_how_fast_it_may_be_and_why_no_faster() -> None:
     robot = Robot()
     robot.wait(1.0)
-    said = status(robot.drive, robot.step(), written=3.0)
+    said = told(robot, robot.step())
     assert (said.max_speed, said.latency, said.slowed) == (3.0, 0.0, "")
-    said = status(robot.drive, robot.hold(FORWARD, 1.0, age=0.06), written=3.0)
+    said = told(robot, robot.hold(FORWARD, 1.0, age=0.06))
     assert (said.max_speed, said.latency, said.slowed) == (3.0, pytest.approx(0.06), "")
-    said = status(robot.drive, robot.hold(FORWARD, 6.0, age=0.24), written=3.0)
+    said = told(robot, robot.hold(FORWARD, 6.0, age=0.24))
     assert (said.max_speed, said.latency) == (pytest.approx(2.5), pytest.approx(0.24))
     assert said.slowed == "commands of keyboard are up to 240 ms old"
 
@@ -51,10 +55,10 @@ def test_status_names_the_stop_in_force_so_that_it_can_be_released() -> None:
     robot.hold(FORWARD, 0.2)
     robot.stop(41)
     robot.stop(42)
-    said = status(robot.drive, robot.step(), written=3.0)
+    said = told(robot, robot.step())
     assert (said.state, [stop.id for stop in said.stops]) == ("stopped", [42])
     assert robot.release(42)
-    assert status(robot.drive, robot.step(), written=3.0).stops == []
+    assert told(robot, robot.step()).stops == []
 
 
 def test_a_vehicle_is_described_within_its_limits() -> None:

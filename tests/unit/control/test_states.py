@@ -116,8 +116,8 @@ TABLE: dict[State, dict[str, State | None]] = {
     "link lost": SAME | CALLED | AGAIN | ANEW | {"let go": "idle"},
     "operator idle": SAME | CALLED | AGAIN | ANEW | {"let go": "idle", "depart": "link lost"},
     "starting": SAME | CALLED | {"armed": "idle", "pause": None},
-    "fault": SAME | CALLED | {"recover": "idle", "arm": None, "pause": None},
-    "stopped": SAME | {"release": "idle"},
+    "fault": SAME | {"recover": "idle"},
+    "stopped": SAME | {"release": "idle", "fail": "fault"},
 }
 """What follows on each event; None is no change."""
 del TABLE["idle"]["act no more"]  # a key that was never pressed cannot be held

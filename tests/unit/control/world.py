@@ -29,7 +29,7 @@ SILENCE = {"keyboard": 0.3, "gamepad": 0.3, "web": 0.3, "program": 0.5, "nav": 0
 SENDERS = ("keyboard", "keyboard", "web", "gamepad", "program")
 MAX_AGE, OPERATOR, LINK_LOSS, LATE, STAND_STILL = 0.3, 5.0, 2.0, 0.2, 0.5
 JUDGE_HEARS, JUDGE_LOOKS = 0.02, 0.05
-PRIORITY: tuple[State, ...] = ("stopped", "fault", "starting", "link lost")
+PRIORITY: tuple[State, ...] = ("fault", "stopped", "starting", "link lost")
 
 
 class Told(NamedTuple):

@@ -11,7 +11,9 @@ def words(vehicle: Vehicle | None, columns: int = 80, **fields: object) -> list[
 
 def driving() -> DriveStatus:
     twists = Twist.planar(0.3, 0.5), Twist.planar(0.25, 0.4)
-    return DriveStatus("driving", "", "keyboard", "3fa2", *twists, [], 1, 0.0, [], "", 0, 0, 3.0, 0.06, "", 0)
+    return DriveStatus(
+        "driving", "", "keyboard", "3fa2", *twists, [], 1, 0.0, [], "", "", 0, 0, 3.0, 0.06, "", 0
+    )
 
 
 def test_wanted_applied_and_what_a_full_stick_means(tank):

@@ -14,7 +14,8 @@ def status(**changes) -> DriveStatus:
     fields = {
         **{"state": "driving", "why": "obeying keyboard", "source": "keyboard", "operator": "3fa2b1c0"},
         **{"wanted": Twist.planar(0.3, 0.5), "applied": Twist.planar(0.25, 0.4)},
-        **{"pulses": [], "seq": 1, "written": 0.0, "stops": [], "unkept": "", "refused": 0, "clamped": 0},
+        **{"pulses": [], "seq": 1, "written": 0.0, "stops": [], "unkept": "", "confirmed": ""},
+        **{"refused": 0, "clamped": 0},
         **{"max_speed": 3.0, "latency": 0.06, "slowed": "", "released": 0},
     }
     return DriveStatus(**fields | changes)

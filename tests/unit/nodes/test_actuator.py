@@ -357,6 +357,32 @@ def test_a_stop_that_cannot_be_kept_is_tried_again_each_second_and_told(robot: R
     assert (robot.status.unkept, robot.shelf.stops) == ("", [KEPT])
 
 
+def test_a_stop_is_told_with_what_the_chip_shows(robot: Robot) -> None:
+    robot.stop(KEPT)
+    assert robot.status.confirmed == "read"
+    robot.chip.broken |= {"read", "write", "start", "check"}
+    robot.tick(5)
+    robot.node.timers[CHECK_EVERY]()
+    assert (robot.status.state, robot.status.confirmed) == ("fault", "")
+    robot.hear(Words(True, cut=True))
+    robot.node.timers[TELL_EVERY]()
+    assert robot.status.confirmed == "cut"
+    robot.hear(Words(None))
+    robot.node.timers[TELL_EVERY]()
+    assert robot.status.confirmed == "cut", "it said nothing of it"
+    robot.hear(Words(False))
+    robot.node.timers[TELL_EVERY]()
+    assert robot.status.confirmed == ""
+
+
+def test_pulses_that_the_chip_did_not_take_are_not_shown(robot: Robot) -> None:
+    robot.say(PUSH)
+    shown = robot.status.pulses
+    robot.chip.broken |= {"write", "start"}
+    robot.stop(KEPT)
+    assert (robot.status.pulses, robot.status.confirmed) == (shown, "")
+
+
 def test_whoever_held_on_through_a_stop_is_told_of_its_release(robot: Robot) -> None:
     robot.say(PUSH)
     robot.stop(KEPT)
@@ -373,7 +399,7 @@ def test_a_late_repeat_of_a_stop_that_was_released_changes_nothing(robot: Robot)
 
 def test_it_obeys_and_keeps_the_watchdogs_stop(robot: Robot) -> None:
     robot.say(PUSH)
-    robot.hear(Words(None, (KEPT,)))
+    robot.hear(Words(None, stops=(KEPT,)))
     assert (robot.status.state, robot.chip.pulses) == ("stopped", NEUTRAL)
     assert robot.shelf.stop == KEPT
 

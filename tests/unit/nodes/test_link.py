@@ -9,7 +9,7 @@ from zteleop.control.standing import Standing
 from zteleop.errors import DeviceError
 from zteleop.messages import Stop
 from zteleop.nodes import link
-from zteleop.nodes.link import DEAF, HEARS, ActuatorEnd, Report, WatchdogEnd, Words
+from zteleop.nodes.link import CUT, DEAF, HEARS, ActuatorEnd, Report, WatchdogEnd, Words
 
 MORE_THAN_FITS = 20_000
 STOPPED = Stop(engaged=True, id=5, by="ann", why="the cat")
@@ -159,3 +159,14 @@ def test_a_stop_that_cannot_be_read_ends_the_actuator_in_words(ends: Ends, text:
     ends.dog._send(b"s" + len(text).to_bytes(2, "little") + text)
     with pytest.raises(DeviceError, match="the watchdog's stop cannot be read; the actuator ends, at rest"):
         [ends.actuator.read() for _ in range(3)]
+
+
+@pytest.mark.parametrize("word", [HEARS, DEAF])
+def test_with_whether_it_hears_the_watchdog_says_whether_it_has_cut_the_outputs(
+    ends: Ends, word: bytes
+) -> None:
+    ends.dog.say(CUT[word])
+    assert ends.actuator.read() == Words(word == HEARS, cut=True)
+    ends.dog.say(CUT[word])
+    ends.dog.say(word)
+    assert ends.actuator.read() == Words(word == HEARS, cut=False)

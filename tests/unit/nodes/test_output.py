@@ -7,7 +7,7 @@ from unit.nodes.fakes import Chip
 from zteleop.control.drive import Drive, DriveSettings
 from zteleop.control.proof import Prover
 from zteleop.errors import DeviceError
-from zteleop.messages import Beat, Pwm
+from zteleop.messages import Beat, Pwm, Stop
 from zteleop.nodes import output as module
 from zteleop.nodes.output import FAILED_STEPS, REPAIR_EVERY, SLOW, Output
 
@@ -231,3 +231,55 @@ def test_neutral_that_is_not_taken_at_the_end_is_an_error(bench: Bench) -> None:
     bench.chip.broken.add("write")
     with pytest.raises(DeviceError):
         bench.output.rest()
+
+
+def stop(bench: Bench) -> None:
+    bench.drive.stop(Stop(engaged=True, id=7, by="ann@desk", why=""), bench.now)
+    bench.step()
+    bench.output.confirm()
+
+
+def test_what_the_chip_took_last_is_known_and_when(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, "clock", SimpleNamespace(now=lambda: bench.now))
+    bench.step()
+    assert bench.output.evidence == (NEUTRAL, bench.now, "")
+    then = bench.now
+    bench.chip.broken |= {"write", "start"}
+    bench.push()
+    for _ in range(10):
+        bench.step()
+    assert bench.output.evidence == (NEUTRAL, then, "")
+
+
+def test_a_stop_is_confirmed_by_what_is_read_back(bench: Bench) -> None:
+    assert "read" not in bench.chip.log
+    stop(bench)
+    assert bench.output.evidence.confirmed == "read"
+    bench.chip.pulses[0] = 1700.0
+    bench.output.check(bench.now)
+    assert bench.output.evidence.confirmed == ""
+    bench.step()
+    bench.output.check(bench.now)
+    assert bench.output.evidence.confirmed == "read"
+    bench.drive.stop(Stop(engaged=False, id=7, by="ann@desk", why=""), bench.now)
+    assert bench.output.evidence.confirmed == ""
+
+
+@pytest.mark.parametrize("broken", ["read", "check", "write"])
+def test_a_chip_that_cannot_be_read_confirms_nothing_unless_it_is_cut_off(bench: Bench, broken: str) -> None:
+    stop(bench)
+    bench.chip.broken |= {broken, "start"}
+    for _ in range(FAILED_STEPS):
+        bench.step()
+    bench.output.check(bench.now)
+    assert bench.output.evidence.confirmed == ""
+    bench.output.is_cut = True
+    assert bench.output.evidence.confirmed == "cut"
+
+
+def test_a_fault_is_not_hidden_by_a_stop(bench: Bench) -> None:
+    stop(bench)
+    bench.break_down()
+    assert bench.step() == "fault"
+    bench.chip.broken.clear()
+    assert bench.step(REPAIR_EVERY) == "stopped"

@@ -4,7 +4,7 @@ import pytest
 from unit.nodes.fakes import Node, Said
 
 from zteleop.control.stop import MERGED, Latch
-from zteleop.messages import DriveStatus, Stop
+from zteleop.messages import Confirmed, DriveStatus, Stop
 from zteleop.nodes.stopping import EVERY, PATIENCE, REPEAT, SETTLED, Stopping, person
 
 TICK = 0.01
@@ -21,9 +21,12 @@ def stopped(*stops: int, why: str = "", by: str = "the watchdog") -> DriveStatus
     )
 
 
-def shows(state: str, *stops: Stop, why: str = "", unkept: str = "") -> DriveStatus:
+def shows(
+    state: str, *stops: Stop, why: str = "", unkept: str = "", confirmed: Confirmed = "read"
+) -> DriveStatus:
     status = DriveStatus.zero()
     status.state, status.stops, status.why, status.unkept = state, list(stops), why, unkept
+    status.confirmed = confirmed
     return status
 
 
@@ -74,7 +77,7 @@ def test_a_stop_is_said_at_once_and_twenty_times_a_second_until_it_is_shown(aske
     assert asker.said.take() == [stop] * round(1.0 / EVERY)
     assert asker.stopping.state == "pending"
     assert asker.heed(stopped(stop.id))
-    assert asker.outcome == ("done", "archangel is stopped (acknowledged within 1010 ms)")
+    assert asker.outcome == ("done", "archangel is stopped (neutral read back from its chip within 1010 ms)")
 
 
 def test_a_stop_is_said_for_three_seconds_also_after_the_answer(asker: Asker) -> None:
@@ -146,7 +149,42 @@ def test_an_answer_that_comes_late_is_an_answer(asker: Asker) -> None:
     assert asker.stopping.unanswered
     asker.heed(stopped(stop.id))
     assert not asker.stopping.unanswered
-    assert asker.outcome == ("done", "archangel is stopped (acknowledged late)")
+    assert asker.outcome == ("done", "archangel is stopped (neutral read back from its chip, late)")
+
+
+HEARD = "archangel heard the stop, not confirmed by the chip: cut its power"
+
+
+def test_outputs_that_are_cut_are_a_stop_as_well(asker: Asker) -> None:
+    ours = asker.engage()
+    assert asker.heed(shows("stopped", ours, confirmed="cut"))
+    assert asker.outcome == ("done", "archangel is stopped (its outputs are cut within 10 ms)")
+
+
+def test_a_stop_that_the_chip_does_not_confirm_is_no_stop(asker: Asker) -> None:
+    ours = asker.engage()
+    asker.wait(SETTLED, shows("stopped", ours, confirmed=""))
+    assert asker.stopping.state == "pending"
+    assert asker.heed(shows("fault", ours, why="nobody answers at 0x40", confirmed=""), 2 * TICK)
+    assert asker.outcome == ("failed", f"{HEARD} (nobody answers at 0x40)")
+    assert asker.stopping.unanswered
+    assert asker.stopping.repeats(asker.now)
+    asker.heed(shows("stopped", ours))
+    assert asker.outcome == ("done", "archangel is stopped (neutral read back from its chip, late)")
+
+
+def test_a_robot_that_falls_silent_before_its_chip_confirms_is_no_better(asker: Asker) -> None:
+    ours = asker.engage()
+    asker.heed(shows("stopped", ours, confirmed=""))
+    asker.wait(PATIENCE)
+    assert asker.outcome == ("failed", f"{HEARD}, and is no longer heard")
+
+
+def test_an_answer_that_comes_late_and_is_not_confirmed_says_that(asker: Asker) -> None:
+    ours = asker.engage()
+    asker.wait(PATIENCE + TICK)
+    asker.wait(SETTLED + 2 * TICK, shows("stopped", ours, confirmed=""))
+    assert asker.outcome == ("failed", HEARD)
 
 
 def test_anothers_stop_that_came_later_is_not_ours(asker: Asker) -> None:

@@ -16,8 +16,9 @@ from zteleop.errors import DeviceError
 from zteleop.messages import Beat, Message, Pwm, Stop, WatchdogStatus
 from zteleop.nodes import service
 from zteleop.nodes import watchdog as module
-from zteleop.nodes.link import DEAF, HEARS, UNWATCHED, Report
+from zteleop.nodes.link import CUT, DEAF, HEARS, UNWATCHED, Report
 from zteleop.nodes.watchdog import (
+    BLIND,
     FAREWELL,
     LATE,
     LOOK_EVERY,
@@ -115,8 +116,13 @@ class Kennel:
         self.hand.pulses = dict(NEUTRAL)
         self.child = Child(clock, self.hand)
         self.enabled: list[bool] = []
-        self.dog = Watchdog(node, DriveSettings(), self.hand, self.child, self.shelf, self.enabled.append)
+        self.has_pin = True
+        self.dog = Watchdog(node, DriveSettings(), self.hand, self.child, self.shelf, self.enable)
         self.prover = Prover(7)
+
+    def enable(self, on: bool) -> bool:
+        self.enabled.append(on)
+        return self.has_pin
 
     def wake(self) -> None:
         """Start, and live until the actuator steps."""
@@ -389,7 +395,42 @@ def test_a_chip_that_cannot_be_read_is_said_and_nobody_is_killed_for_it(awake: K
     awake.hand.broken.add("read")
     awake.live(1.0)
     assert "cannot read the chip: the chip does not take a read" in awake.node.warnings
-    assert (awake.child.starts, awake.node.errors) == (1, [])
+    assert awake.child.starts == 1
+
+
+def test_a_chip_that_cannot_be_read_for_a_while_is_cut_off_until_it_can(awake: Kennel) -> None:
+    """Nobody can say what it puts out, nor change it; the actuator is told, as a stop is confirmed by it."""
+    awake.hand.broken.add("read")
+    awake.live(BLIND)
+    assert awake.enabled == [True]
+    awake.child.words.clear()
+    awake.live(0.2)
+    assert awake.enabled == [True, False]
+    assert awake.child.words[-1] == CUT[HEARS]
+    assert [error for error in awake.node.errors if "its outputs are cut" in error]
+    awake.hand.broken.clear()
+    awake.hand.pulses = dict(NEUTRAL)
+    awake.live(0.2)
+    assert awake.enabled == [True, False, True]
+    assert awake.child.words[-1] == HEARS
+    assert awake.child.starts == 1
+
+
+def test_a_moment_without_a_look_cuts_nothing(awake: Kennel) -> None:
+    for _ in range(5):
+        awake.hand.broken.add("read")
+        awake.live(BLIND - 0.05)
+        awake.hand.broken.clear()
+        awake.live(0.1)
+    assert awake.enabled == [True]
+
+
+def test_where_no_pin_cuts_nobody_is_told_that_one_did(awake: Kennel) -> None:
+    awake.has_pin = False
+    awake.hand.broken.add("read")
+    awake.live(1.0)
+    assert set(awake.child.words) == {HEARS}
+    assert not [error for error in awake.node.errors if "its outputs are cut" in error]
 
 
 def test_neutral_is_written_until_it_is_read_back_and_then_another_starts(awake: Kennel) -> None:
