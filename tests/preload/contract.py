@@ -3,6 +3,7 @@
 import re
 import time
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from typing import Any, TypeVar
 
@@ -312,6 +313,18 @@ def a_chip_that_answers_every_second_time_comes_up_and_is_driven(bench: Bench) -
             driver.write(pulse_us)
             driver.check()
             assert bench.ticks(0, 1) == ticks
+
+
+@case
+def a_bus_that_is_slow_does_one_transfer_after_the_other_and_all_of_them(bench: Bench) -> None:
+    drivers = [bench.started(), bench.driver()]
+    bench.faults.slow(20)
+    began = time.monotonic()
+    with ThreadPoolExecutor(2) as people:
+        list(people.map(lambda driver: driver.write(DRIVEN), drivers))
+    assert time.monotonic() - began >= 0.04
+    assert bench.ticks(0, 1) == DRIVEN_TICKS
+    bench.faults.slow(0)
 
 
 @case

@@ -36,6 +36,7 @@ struct faults { // little-endian, as every machine this is built for
     uint32_t nack, tear, hang;
     uint16_t after_bytes, ms, every, percent;
     uint32_t state;
+    uint16_t slow_ms, spare;
 };
 
 struct chip {
@@ -181,6 +182,11 @@ static struct fault count_down(struct faults *faults, unsigned written)
     return NO_FAULT;
 }
 
+static void wait_ms(unsigned ms)
+{
+    nanosleep(&(struct timespec){ms / 1000, ms % 1000 * 1000000L}, NULL);
+}
+
 static struct fault meet_fault(unsigned written)
 {
     static const struct faults none;
@@ -189,8 +195,9 @@ static struct fault meet_fault(unsigned written)
     int file = open(chip_file(), O_RDWR | O_CLOEXEC);
     flock(file, LOCK_EX); // whoever clears faults must not find them again
     struct fault fault = count_down(&chip->faults, written);
+    wait_ms(chip->faults.slow_ms); // with the lock: a bus does one transfer at a time
     close(file);
-    nanosleep(&(struct timespec){fault.ms / 1000, fault.ms % 1000 * 1000000L}, NULL);
+    wait_ms(fault.ms);
     return fault;
 }
 

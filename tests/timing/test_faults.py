@@ -37,7 +37,11 @@ LONG = {
     "link slower by half a second",
     "link of 4 kbit/s",
     "chip answers two times of three",
-    *(f"{what}, bus fails 1 in 3" for what in ("operator killed", "actuator killed", "stop pressed")),
+    *(
+        f"{what}, {how}"
+        for what in ("operator killed", "actuator killed", "stop pressed")
+        for how in ("bus fails 1 in 3", "bus takes 20 ms")
+    ),
 }
 """Left to `make soak`: another fault is much like it."""
 SHORT = [fault for kind, fault in chaos.faults() if kind != "load" and fault.name not in LONG]

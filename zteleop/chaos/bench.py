@@ -6,7 +6,7 @@ import shutil
 import tempfile
 import time
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import AbstractContextManager, ExitStack, contextmanager
 from pathlib import Path
 from typing import NamedTuple, Self
 
@@ -159,6 +159,10 @@ class Bench:
         """What the robot says of itself, if it has said anything since the last look."""
         return self.statuses.newest()
 
+    def meanwhile(self, context: AbstractContextManager[object]) -> None:
+        """Enter a context that ends with the bench."""
+        self._stack.enter_context(context)
+
     def until(self, condition: Callable[[], object], patience: float) -> float | None:
         """Look until a condition holds; return when, by the monotonic clock, or None if it never does."""
         give_up = time.monotonic() + patience
@@ -168,9 +172,9 @@ class Bench:
             time.sleep(LOOK)
         return time.monotonic()
 
-    def press_stop(self, node: Node | None = None) -> None:
+    def press_stop(self, node: Node | None = None, by: str = "chaos") -> None:
         """Press Stop once."""
-        stop = Stop(engaged=True, id=secrets.randbits(53), by="chaos", why="")
+        stop = Stop(engaged=True, id=secrets.randbits(53), by=by, why="")
         (node.publisher("stop", Stop) if node else self.stops).publish(stop)
 
     def release(self, stop: int) -> None:

@@ -74,7 +74,11 @@ BAD: dict[str, Callable[[Faults], object]] = {
     "bus fails 1 in 2": lambda faults: faults.every(2),
     "bus fails 1 in 3": lambda faults: faults.every(3),
     "bus fails at random": lambda faults: faults.at_random(50),
+    "bus takes 20 ms": lambda faults: faults.slow(20),
+    "bus takes 100 ms": lambda faults: faults.slow(100),
 }
+LONG = {"bus takes 20 ms": 0.1, "bus takes 100 ms": 0.5}
+"""s in addition: a transfer is awaited, of the watchdog's look perhaps three, and then comes neutral"""
 ENDS: tuple[tuple[str, Act, Operator], ...] = (
     ("operator killed", operator(signal.SIGKILL), "program"),
     ("actuator killed", actuator(signal.SIGKILL), "here"),
@@ -85,7 +89,13 @@ FAULTS = (
     Fault("chip answers two times of three", for_long(lambda f: f.every(3)), None, "drives", simulated=True),
     Fault("chip answers every second time", for_long(lambda f: f.every(2)), None, "drives", simulated=True),
     *(
-        Fault(f"{what}, {how}", together(once(put), act), SOON, operator=who, simulated=True)
+        Fault(
+            f"{what}, {how}",
+            together(once(put), act),
+            SOON + LONG.get(how, 0.0),
+            operator=who,
+            simulated=True,
+        )
         for how, put in BAD.items()
         for what, act, who in ENDS
     ),

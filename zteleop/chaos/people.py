@@ -2,6 +2,7 @@
 
 from zteleop.chaos.bench import Bench
 from zteleop.chaos.fault import Fault
+from zteleop.chaos.operators import here
 
 PATIENCE = 2.0
 
@@ -33,8 +34,31 @@ def release(bench: Bench) -> None:
     bench.until(released, PATIENCE)
 
 
+def press_by_two_people(bench: Bench) -> None:
+    for by in TWO_PEOPLE:
+        bench.press_stop(by=by)
+
+
+def release_one_and_begin_anew(bench: Bench) -> None:
+    """End the first stop while the second is in force, and let somebody try to drive."""
+
+    first, second = TWO_PEOPLE
+
+    def released() -> bool:
+        status = bench.status
+        stops = {stop.by: stop.id for stop in status.stops} if status else {}
+        if first in stops:
+            bench.release(stops[first])
+        return set(stops) == {second}
+
+    bench.until(released, PATIENCE)
+    bench.meanwhile(here(bench, bench.join()))
+
+
+TWO_PEOPLE = "ann@chaos", "bob@chaos"
 FAULTS = (
     Fault("stop pressed", press, 0.03),
     Fault("stop pressed at three places", press_at_three_places, 0.03, before=go_to_three_places),
+    Fault("of two stops one is released", press_by_two_people, 0.03, afterwards=release_one_and_begin_anew),
     Fault("stop released under a held key", press, 0.03, afterwards=release),
 )

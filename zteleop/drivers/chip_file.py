@@ -1,4 +1,4 @@
-"""The file of a simulated chip: 256 bytes of registers, then 24 of faults that somebody has put in."""
+"""The file of a simulated chip: 256 bytes of registers, then 28 of faults that somebody has put in."""
 
 import fcntl
 import os
@@ -8,7 +8,7 @@ from typing import Self
 from zteleop.drivers.chip import POWER_UP, SIZE
 from zteleop.errors import DeviceError
 
-FAULTS = slice(SIZE, SIZE + 24)
+FAULTS = slice(SIZE, SIZE + 28)
 FILE_SIZE = FAULTS.stop
 
 

@@ -1,12 +1,13 @@
 """What can go wrong on a simulated bus, put in through the chip's file by whoever can write it.
 
 Behind the registers, little-endian: counters, of which each transfer counts one down, and then how often
-a transfer fails all the time.
+a transfer fails all the time, and how long each takes.
 """
 
 import errno
 import fcntl
 import os
+import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from struct import Struct
@@ -30,10 +31,11 @@ class Area(NamedTuple):
     percent: int = 0
     state: int = 0
     """how many transfers `every` has seen, or the last number of `percent`'s generator"""
+    slow_ms: int = 0
 
 
-LAYOUT = Struct("<IIIHHHHI")
-LIMITS = Area(2**32 - 1, 2**32 - 1, 2**32 - 1, 2**16 - 1, 2**16 - 1, 2**16 - 1, 100, 2**32 - 1)
+LAYOUT = Struct("<IIIHHHHIHxx")
+LIMITS = Area(2**32 - 1, 2**32 - 1, 2**32 - 1, 2**16 - 1, 2**16 - 1, 2**16 - 1, 100, 2**32 - 1, 1000)
 
 
 class Fault(NamedTuple):
@@ -81,6 +83,10 @@ class Faults:
         """Let that many of a hundred reads and writes find nobody at the address, until it is 0."""
         self._put(every=0, percent=percent, state=1)
 
+    def slow(self, ms: int) -> None:
+        """Let every read or write take so many milliseconds more, one after the other, until it is 0."""
+        self._put(slow_ms=ms)
+
     def brown_out(self) -> None:
         """Let the supply dip: the registers are those of power-up, and writes go on to succeed."""
         os.pwrite(self._file, POWER_UP, 0)
@@ -120,6 +126,7 @@ def take(path: str, length: int = 0) -> Fault | None:
         with _locked(file):
             left, fault = _meet(_read(file), length)
             _write(file, left)
+            time.sleep(left.slow_ms / 1000)  # with the lock: a bus does one transfer at a time
     finally:
         os.close(file)
     return fault

@@ -15,7 +15,9 @@ FAILED_STEPS = 3
 REPAIR_EVERY = 0.1
 SLOW = 0.05
 """s for neutral to fail or go out, beyond which this step asks nothing more of the bus"""
-FAULT, ARMING = "chip", "arming"
+SLOW_WRITES, QUICK_WRITES = 3, 25
+"""in a row make a bus that is too slow to drive on, or one that is so no more"""
+FAULT, SLOWNESS, ARMING = "chip", "bus", "arming"
 
 
 class Output:
@@ -26,7 +28,8 @@ class Output:
         self._neutral_us = drive.calibration.neutral_us
         self._taken: Mapping[int, float] = self._neutral_us
         self._written = 0.0
-        self._failed = 0
+        self._failed = self._slow = self._quick = 0
+        """Writes in a row."""
         self._broken = self._reads_rest = False
         self.is_cut = False
         """The watchdog says that no pulse leaves the chip, whatever it was told."""
@@ -48,6 +51,7 @@ class Output:
         """Write the pulses of a step, unless the chip is being repaired."""
         if self._broken:
             return
+        began = clock.now()
         try:
             self._take(pulse_us)
             self._failed = 0
@@ -55,10 +59,14 @@ class Output:
             self._failed += 1
             if self._failed >= FAILED_STEPS:
                 self._break(str(error), now)
+        self._notice_slowness(clock.now() - began, now)
 
     def check(self, now: float) -> None:
-        """Read back what the chip must not forget; after a dip of its supply, writes still succeed."""
-        if self._broken:
+        """Read back what the chip must not forget; after a dip of its supply, writes still succeed.
+
+        Not on a slow bus, where whatever is read holds up the next neutral.
+        """
+        if self._broken or self._slow:
             return
         try:
             self._look_twice()
@@ -69,7 +77,7 @@ class Output:
     def confirm(self) -> None:
         """Read back whether a robot that is stopped stands; what cannot be read is not known."""
         self._reads_rest = False
-        if self._drive.latch.stops and not self._broken:
+        if self._drive.latch.stops and not self._broken and not self._slow:
             with suppress(DeviceError):
                 self._reads_rest = self._drive.calibration.at_rest(self._driver.read(self._neutral_us))
 
@@ -94,6 +102,19 @@ class Output:
     def _start(self) -> None:
         self._driver.start(self._neutral_us)
         self._taken, self._written = self._neutral_us, clock.now()
+
+    def _notice_slowness(self, took: float, now: float) -> None:
+        """Keep the robot at rest on a bus that is slow: each command, and each neutral, would come late."""
+        slow = took > SLOW
+        self._slow, self._quick = (self._slow + 1, 0) if slow else (0, self._quick + 1)
+        if self._slow >= SLOW_WRITES:
+            words = f"its bus is slow: a write took {took * 1000:.0f} ms, of at most {SLOW * 1000:.0f}"
+            if SLOWNESS not in self._drive.holds:
+                self._say(f"the chip is at fault: {words}")
+            self._drive.hold(SLOWNESS, "fault", f"{words}; look at its wires, pull-ups and clock", now)
+        elif self._quick >= QUICK_WRITES and SLOWNESS in self._drive.holds:
+            self._say("the bus of the chip is quick again")
+            self._drive.free(SLOWNESS, now)
 
     def _look_twice(self) -> None:
         try:

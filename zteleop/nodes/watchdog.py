@@ -36,6 +36,8 @@ FORGIVE_EVERY = 2.0
 BLIND = 0.25
 """s and `LOOKS` in a row without a look at the chip until its outputs are cut: it may repeat any pulses"""
 LOOKS = 3
+PER_LOOK = 2
+"""times what a look took, that the actuator may be silent for in addition: each needs some transfers"""
 YIELD = 5
 """times as long as a look took, until the next one"""
 FAREWELL = 0.25
@@ -69,6 +71,7 @@ class Watchdog:
         self._standing: Standing | None = None
         """Of the actuator that is gone, where it was only late."""
         self._look_after = self._seen = clock.now()
+        self._look_took = 0.0
         self._blind = 0
         """How many looks in a row have failed"""
         self._at_rest = False
@@ -130,16 +133,22 @@ class Watchdog:
         if now - self._ticked > LATE and now - self._woke > FORGIVE_EVERY:
             self._woke = now
         self._ticked = now
-        if ignored := self._ears.listen(now):
-            self._engage(ignored)
+        self._listen(now)
         if self._restart_at is not None:
             self._keep_at_rest(now)
         elif self._silent(now):
             self._fell(self._lose_patience(now), 0.0, late=True)
 
+    def _listen(self, now: float) -> None:
+        if ignored := self._ears.listen(now):
+            self._engage(ignored)
+
     def _silent(self, now: float) -> bool:
-        """Say whether the actuator has been silent for too long while the watchdog was there to hear it."""
-        limit = SILENCE if self._child.ready else self._start_patience
+        """Say whether the actuator has been silent for too long while the watchdog was there to hear it.
+
+        One that waits for a slow bus is not dead, and the looks tell how slow the bus is.
+        """
+        limit = SILENCE + PER_LOOK * self._look_took if self._child.ready else self._start_patience
         return min(self._child.silence(now), now - self._woke) > limit
 
     def _lose_patience(self, now: float) -> str:
@@ -163,13 +172,16 @@ class Watchdog:
         if self._restart_at is not None or not self._child.ready or began < self._look_after:
             return
         try:
-            why = self._judge.look(self._hand.read(self._judge.neutral_us), clock.now())
+            pulses = self._hand.read(self._judge.neutral_us)
         except DeviceError as error:
             self._node.log.warn(f"cannot read the chip: {error}", "read")
             self._miss()
             return
         finally:  # on a slow bus whoever writes comes first
-            self._look_after = began + YIELD * (clock.now() - began)
+            self._look_took = clock.now() - began
+            self._look_after = began + YIELD * self._look_took
+        self._listen(clock.now())  # what was said during a slow look may be what allows it
+        why = self._judge.look(pulses, began)
         self._seen, self._blind = clock.now(), 0
         if why and not self._judge.stopped:
             self._engage(Stop(engaged=True, id=secrets.randbits(53), by="the watchdog", why=why))

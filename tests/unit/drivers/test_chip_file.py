@@ -18,14 +18,14 @@ def file(tmp_path: Path) -> Path:
 def test_a_file_of_another_size_is_no_chip_and_gets_power(file: Path, content: bytes) -> None:
     file.write_bytes(content)
     os.close(open_file(str(file)))
-    assert file.read_bytes() == POWER_UP + bytes(24)
+    assert file.read_bytes() == POWER_UP + bytes(28)
 
 
 def test_a_chip_from_before_there_were_faults_keeps_its_registers(file: Path) -> None:
     driving = bytes(range(256))
     file.write_bytes(driving)
     os.close(open_file(str(file)))
-    assert file.read_bytes() == driving + bytes(24)
+    assert file.read_bytes() == driving + bytes(28)
 
 
 def test_a_chip_that_runs_is_left_alone(file: Path) -> None:
@@ -47,7 +47,7 @@ def test_a_file_that_cannot_be_opened_names_the_setting(file: Path, act: object)
 
 
 def test_a_chip_whose_file_is_removed_is_one_without_power(file: Path) -> None:
-    file.write_bytes(bytes(range(256)) + bytes(24))
+    file.write_bytes(bytes(range(256)) + bytes(28))
     with map_file(str(file), ACCESS_WRITE) as memory:
         file.unlink()
         assert memory[:256] == POWER_UP
@@ -57,7 +57,7 @@ def test_a_chip_whose_file_is_removed_is_one_without_power(file: Path) -> None:
 
 @pytest.mark.parametrize("content", [b"", b"x", bytes(FILE_SIZE - 1), bytes(5000)])
 def test_a_chip_whose_file_is_cut_short_is_one_without_power(file: Path, content: bytes) -> None:
-    file.write_bytes(bytes(range(256)) + bytes(24))
+    file.write_bytes(bytes(range(256)) + bytes(28))
     with map_file(str(file), ACCESS_WRITE) as memory:
         file.write_bytes(content)
         assert memory[:256] == POWER_UP

@@ -26,7 +26,7 @@ def test_they_lie_behind_the_registers_little_endian(path: str) -> None:
     faults.hang(4, ms=500)
     content = Path(path).read_bytes()
     assert content[:256] == POWER_UP
-    assert content[256:] == bytes([1, 0, 0, 0, 2, 0, 0, 0, 4, 0, 0, 0, 3, 0, 0xF4, 1]) + bytes(8)
+    assert content[256:] == bytes([1, 0, 0, 0, 2, 0, 0, 0, 4, 0, 0, 0, 3, 0, 0xF4, 1]) + bytes(12)
     faults.close()
 
 
@@ -79,7 +79,7 @@ def test_leaving_the_with_takes_them_all_out(path: str) -> None:
     with Faults(path) as faults:
         faults.nack(5)
         faults.hang(5, ms=1000)
-    assert Path(path).read_bytes() == POWER_UP + bytes(24)
+    assert Path(path).read_bytes() == POWER_UP + bytes(28)
     assert bus(path).read_byte_data(0x40, 0xFE) == 0x1E
 
 

@@ -27,7 +27,7 @@ def started(path: str, neutral_us: dict[int, float]) -> Pca9685:
 def test_a_chip_that_was_not_there_has_just_got_power(path: str, tmp_path: Path) -> None:
     with open_registers(path) as registers:
         assert registers.snapshot() == POWER_UP
-    assert (tmp_path / "runtime" / "zteleop" / "car.pca9685").read_bytes() == POWER_UP + bytes(24)
+    assert (tmp_path / "runtime" / "zteleop" / "car.pca9685").read_bytes() == POWER_UP + bytes(28)
     assert stat.S_IMODE(os.stat(os.path.dirname(path)).st_mode) == 0o700
 
 

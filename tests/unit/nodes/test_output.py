@@ -2,6 +2,7 @@ from itertools import count, pairwise
 from types import SimpleNamespace
 
 import pytest
+from unit.bus.fakes import Clock
 from unit.nodes.fakes import Chip
 
 from zteleop.control.drive import Drive, DriveSettings
@@ -9,7 +10,7 @@ from zteleop.control.proof import Prover
 from zteleop.errors import DeviceError
 from zteleop.messages import Beat, Pwm, Stop
 from zteleop.nodes import output as module
-from zteleop.nodes.output import FAILED_STEPS, REPAIR_EVERY, SLOW, Output
+from zteleop.nodes.output import FAILED_STEPS, QUICK_WRITES, REPAIR_EVERY, SLOW, SLOW_WRITES, Output
 
 NEUTRAL = {0: 1509.6, 1: 1530.0}
 PULSES = {0: 1509.6, 1: 1600.0}
@@ -283,3 +284,80 @@ def test_a_fault_is_not_hidden_by_a_stop(bench: Bench) -> None:
     assert bench.step() == "fault"
     bench.chip.broken.clear()
     assert bench.step(REPAIR_EVERY) == "stopped"
+
+
+class SlowChip(Chip):
+    """A chip whose bus takes its time, by the clock of its bench."""
+
+    takes = 0.0
+
+    def __init__(self, clock: Clock) -> None:
+        super().__init__()
+        self.clock = clock
+
+    def _do(self, name: str, pulse_us: dict[int, float] | None = None) -> None:
+        self.clock.time += self.takes
+        super()._do(name, pulse_us)
+
+
+@pytest.fixture
+def slow(bench: Bench, clock: Clock) -> Bench:
+    bench.chip = SlowChip(clock)
+    bench.output = Output(bench.chip, bench.drive, bench.said.append)
+    bench.output.start(bench.now)
+    bench.step()
+    bench.step()
+    bench.push()
+    bench.step()
+    assert bench.state == "driving"
+    bench.chip.takes = SLOW + 0.01
+    return bench
+
+
+def test_a_slow_bus_is_a_fault_that_names_it_and_gets_neutral_and_nothing_else(slow: Bench) -> None:
+    for _ in range(SLOW_WRITES - 1):
+        slow.push()
+        assert slow.step() == "driving"
+    slow.push()
+    slow.step()
+    assert slow.step() == "fault"
+    assert slow.drive.holds.strongest.why.startswith(
+        "its bus is slow: a write took 60 ms, of at most 50; look at"
+    )
+    slow.chip.log.clear()
+    for _ in range(20):
+        slow.push()
+        slow.step()
+        slow.output.check(slow.now)
+        slow.output.confirm()
+    assert set(slow.chip.log) == {"write"}
+    assert slow.chip.pulses == NEUTRAL
+    assert len(slow.said) == 1
+
+
+def test_a_bus_that_is_quick_again_may_be_driven_on_by_who_begins_anew(slow: Bench) -> None:
+    for _ in range(SLOW_WRITES + 1):
+        slow.push()
+        slow.step()
+    slow.chip.takes = 0.0
+    for _ in range(QUICK_WRITES):
+        assert slow.step() == "fault"
+        slow.push()
+    for _ in range(10):
+        assert slow.step() == "idle"
+        slow.prover.prove(Beat(1, slow.now, 0.0), True, slow.now)
+    assert slow.said[-1] == "the bus of the chip is quick again"
+    slow.prover.let_go()
+    slow.push()
+    assert slow.step() == "driving"
+
+
+def test_one_write_that_took_long_is_no_slow_bus(slow: Bench) -> None:
+    for _ in range(10):
+        slow.chip.takes = SLOW + 0.01
+        slow.push()
+        slow.step()
+        slow.chip.takes = 0.0
+        slow.push()
+        assert slow.step() == "driving"
+    assert slow.said == []

@@ -493,6 +493,41 @@ def test_its_looks_leave_a_slow_bus_to_whoever_writes(awake: Kennel) -> None:
     assert len(looks) >= 3
 
 
+def take_long(awake: Kennel, seconds: float) -> None:
+    read = awake.hand.read
+
+    def slowly(channels: Iterable[int]) -> dict[int, float | None]:
+        awake.clock.time += seconds
+        return read(channels)
+
+    awake.hand.read = slowly
+
+
+def test_an_actuator_that_waits_for_a_slow_bus_is_not_killed_for_it(awake: Kennel) -> None:
+    """Its looks tell how slow the bus is: as many transfers are between two steps of an actuator."""
+    take_long(awake, 0.3)
+    awake.live(0.1)
+    awake.child.frozen = True
+    awake.live(SILENCE + 0.3)
+    assert awake.child.starts == 1
+    awake.live(0.6)
+    assert awake.child.log[-1].startswith("end") or awake.child.starts == 2
+
+
+def test_what_is_said_during_a_slow_look_may_be_what_allows_the_pulses(awake: Kennel) -> None:
+    read = awake.hand.read
+
+    def slowly(channels: Iterable[int]) -> dict[int, float | None]:
+        awake.clock.time += 0.3
+        awake.hear("pwm/keyboard", PUSH)
+        awake.hand.pulses = dict(MOVING)
+        return read(channels)
+
+    awake.hand.read = slowly
+    awake.live(5.0)
+    assert awake.shelf.stops == []
+
+
 def test_neutral_is_written_until_the_process_is_gone_as_well(awake: Kennel) -> None:
     """One that is stuck in the kernel may write once more when it comes loose."""
     awake.child.stuck = awake.child.frozen = True
