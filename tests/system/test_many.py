@@ -139,3 +139,22 @@ def test_a_killed_node_is_listed_no_longer(rig: Rig) -> None:
     sender.signal(signal.SIGKILL)
     sender.ends()
     assert "/bench/soil" not in rig.result("list", *rig.bus_options()).stdout.splitlines()
+
+
+def test_a_strangers_token_keeps_no_robot_from_starting(tmp_path_factory: pytest.TempPathFactory) -> None:
+    """Anybody on the bus may hold a place; only a watchdog says what it sees."""
+    with (
+        Rig(tmp_path_factory.mktemp("stranger")) as rig,
+        Rig(tmp_path_factory.mktemp("hall"), "hall") as hall,
+    ):
+        hall.actuator()
+        stranger = hall.session()
+        token = stranger.liveliness().declare_token(f"robot/{rig.robot}/live/node/watchdog/a-stranger-1")
+        actuator = rig.actuator("--connect", hall.endpoint)
+        actuator.says(
+            "a-stranger-1 holds the place of this robot's watchdog and says nothing; it is passed over"
+        )
+        publisher = operator(rig)
+        with repeating(lambda: publisher.publish(FORWARD), 0.02):
+            stands(rig, *PATTERN)
+        token.undeclare()

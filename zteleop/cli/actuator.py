@@ -16,6 +16,7 @@ from zteleop.control.drive import DriveSettings
 from zteleop.drivers import DRIVERS, open_driver, output_enable
 from zteleop.drivers.output_enable import OutputEnable
 from zteleop.errors import ConfigError, DeviceError
+from zteleop.messages import WatchdogStatus
 from zteleop.nodes import realtime
 from zteleop.nodes.child import Child
 from zteleop.nodes.recorder import Recorder
@@ -27,6 +28,8 @@ LARGEST = 2**20
 LONGEST_PLACE = 70
 """characters of a folder for the private socket, whose whole path may have a hundred"""
 PRIORITY, OOM_SCORE = 20, -900
+SPEAKS_WITHIN = 1.0
+"""s; a watchdog says five times a second what it sees"""
 CHILD = [sys.executable, "-m", "zteleop", "actuator"]
 RECORDER = [*CHILD, "--record"]
 
@@ -97,22 +100,28 @@ def run(arguments: argparse.Namespace) -> int:
 def _join(robot: str, bus: BusSettings) -> Iterator[Node]:
     """Join the bus as the only watchdog of that robot."""
     with open_session(bus, settle=True, door=True) as session:
-        _only_one(presence.holders(session, robot, "watchdog"), robot)
+        before = presence.holders(session, robot, "watchdog")
         with Node("watchdog", robot, session=session, feed=realtime.feed) as node:
-            _yield_to_the_first(presence.holders(session, robot, "watchdog"), robot)
+            holders = {*before, *_who_goes_first(presence.holders(session, robot, "watchdog"))}
+            if holders:
+                _pass_over(node, ", ".join(sorted(holders)))
             yield node
 
 
-def _only_one(holders: list[str], robot: str) -> None:
-    if holders:
-        raise DeviceError(
-            f"robot {robot} has an actuator already: {', '.join(holders)}; stop it, or say --robot"
-        )
+def _who_goes_first(holders: list[str]) -> list[str]:
+    """Of several that start at once, one goes on."""
+    return [holder for holder in holders if holder < presence.process()]
 
 
-def _yield_to_the_first(holders: list[str], robot: str) -> None:
-    """Of two that start at once, one goes on."""
-    _only_one([holder for holder in holders if holder < presence.process()], robot)
+def _pass_over(node: Node, holders: str) -> None:
+    """Take a place whose holders say nothing: anybody may hold one, and only a watchdog speaks.
+
+    Raises DeviceError when one does.
+    """
+    statuses = node.subscription("watchdog", WatchdogStatus)
+    if node.until(statuses.newest, SPEAKS_WITHIN):
+        raise DeviceError(f"robot {node.robot} has an actuator already: {holders}; stop it, or say --robot")
+    node.log.warn(f"{holders} holds the place of this robot's watchdog and says nothing; it is passed over")
 
 
 def _switch(node: Node, pin: OutputEnable | None) -> Callable[[bool], bool]:

@@ -7,6 +7,7 @@ from importlib import import_module
 
 from zteleop.bus import signals
 from zteleop.bus.escape import printable
+from zteleop.cli import limits
 from zteleop.errors import ZteleopError
 
 
@@ -32,7 +33,7 @@ def run_verb(verb: str, text: str, arguments: list[str]) -> int:
     except Exception as error:
         if options.debug:
             raise
-        _say(verb, f"{type(error).__name__}: {error} (a bug; --debug shows where)")
+        _say(verb, limits.reached(error) or f"{type(error).__name__}: {error} (a bug; --debug shows where)")
         return 1
     finally:
         undo_signals()

@@ -46,15 +46,19 @@ def machine_folder() -> str:
 
 def _open(path: str) -> int:
     try:
-        return _open_shared(path)
+        file = _open_shared(path)
     except OSError as error:
         raise DeviceError(f"cannot open the lock {path}: {error.strerror}; check who owns it") from error
+    if not stat.S_ISREG(os.fstat(file).st_mode):  # a pipe would make whoever reads its owner wait for ever
+        os.close(file)
+        raise DeviceError(f"the lock {path} is no file; see what it is, and remove it")
+    return file
 
 
 def _open_shared(path: str) -> int:
     try:
         # Linux refuses O_CREAT on another user's file in a sticky folder (fs.protected_regular).
-        return os.open(path, os.O_RDWR | os.O_NOFOLLOW)
+        return os.open(path, os.O_RDWR | os.O_NOFOLLOW | os.O_NONBLOCK)
     except FileNotFoundError:
         file = os.open(path, os.O_RDWR | os.O_NOFOLLOW | os.O_CREAT, 0o666)
         os.fchmod(file, 0o666)  # the umask must not keep other users of the bus out

@@ -7,6 +7,7 @@ from zteleop.bus import clock
 from zteleop.control.drive import Drive
 from zteleop.control.evidence import Evidence
 from zteleop.drivers import PulseDriver
+from zteleop.drivers.registers import CHANNELS
 from zteleop.errors import DeviceError
 from zteleop.messages import Confirmed
 
@@ -44,6 +45,7 @@ class Output:
     def start(self, now: float, arm: bool = True) -> None:
         """Bring the chip up at neutral; raises DeviceError when it does not come."""
         self._start()
+        self._tell_others()
         if arm:
             self._arm(now)
 
@@ -102,6 +104,16 @@ class Output:
     def _start(self) -> None:
         self._driver.start(self._neutral_us)
         self._taken, self._written = self._neutral_us, clock.now()
+
+    def _tell_others(self) -> None:
+        """Say which channels move that nobody here commands: no stop reaches them."""
+        with suppress(DeviceError):
+            found = self._driver.read([channel for channel in CHANNELS if channel not in self._neutral_us])
+            if moving := [str(channel) for channel, width in found.items() if width is not None]:
+                self._say(
+                    f"channels {', '.join(moving)} of the chip put out pulses that another program left on; "
+                    "nothing here stops them: switch the chip's supply off and on"
+                )
 
     def _notice_slowness(self, took: float, now: float) -> None:
         """Keep the robot at rest on a bus that is slow: each command, and each neutral, would come late."""

@@ -65,7 +65,7 @@ def test_a_vehicle_without_a_throttle_has_no_neutral_to_shift() -> None:
 def join(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Any]:
     """Join a bus on which these watchdogs are, and some more as soon as this one has shown itself."""
 
-    def join(before: list[str], meanwhile: list[str], own: str = "pi-7") -> Any:
+    def join(before: list[str], meanwhile: list[str], own: str = "pi-7", speaks: bool = True) -> Any:
         session = Session(f"robot/archangel/live/node/watchdog/{holder}" for holder in before)
         monkeypatch.setattr(presence, "process", lambda: own)
         monkeypatch.setattr(actuator, "open_session", lambda *_, **options: nullcontext(session))
@@ -73,7 +73,11 @@ def join(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Any]:
         def node(*arguments: Any, **options: Any) -> Node:
             late = [f"robot/archangel/live/node/watchdog/{holder}" for holder in meanwhile]
             session.alive.keys += late
-            return Node(*arguments, **options)
+            node = Node(*arguments, **options)
+            node.warnings = []
+            monkeypatch.setattr(node.log, "warn", node.warnings.append)
+            monkeypatch.setattr(node, "until", lambda look, seconds: speaks)
+            return node
 
         monkeypatch.setattr(actuator, "Node", node)
         return actuator._join("archangel", BusSettings())
@@ -97,6 +101,17 @@ def test_a_second_actuator_is_told_who_has_the_robot(join: Callable[..., Any], h
 def test_of_two_that_start_at_once_one_goes_on(join: Callable[..., Any], other: str, goes_on: bool) -> None:
     with nullcontext() if goes_on else pytest.raises(DeviceError, match=other), join([], [other]) as node:
         assert node.robot == "archangel"
+
+
+@pytest.mark.parametrize(("before", "meanwhile"), [(["pi-9"], []), ([], ["pi-6"])])
+def test_who_holds_the_place_and_says_nothing_is_passed_over(
+    join: Callable[..., Any], before: list[str], meanwhile: list[str]
+) -> None:
+    (holder,) = before + meanwhile
+    with join(before, meanwhile, speaks=False) as node:
+        assert node.warnings == [
+            f"{holder} holds the place of this robot's watchdog and says nothing; it is passed over"
+        ]
 
 
 PRIVATE = "unixsock-stream//tmp/x/bus"

@@ -12,7 +12,7 @@ import zteleop.cli
 from zteleop.cli import VERBS, main
 
 FILES = {path.stem for path in Path(zteleop.cli.__file__).parent.glob("*.py")}
-NO_VERBS = {"__init__", "run", "options", "obey", "record", "salvage"}
+NO_VERBS = {"__init__", "run", "options", "obey", "record", "salvage", "limits"}
 
 
 @pytest.mark.parametrize("arguments", [[], ["-h"], ["--help"], ["--help", "demo"]])

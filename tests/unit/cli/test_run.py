@@ -1,4 +1,5 @@
 import argparse
+import errno
 import io
 import os
 from collections.abc import Callable
@@ -61,6 +62,11 @@ def test_an_unexpected_error_is_one_sentence_that_owns_up(
     assert verb(ZeroDivisionError("division by zero")) == 1
     words = "zteleop fly: ZeroDivisionError: division by zero (a bug; --debug shows where)\n"
     assert capsys.readouterr() == ("", words)
+
+
+def test_a_limit_that_is_reached_is_nobodys_bug(verb: Verb, capsys: pytest.CaptureFixture[str]) -> None:
+    assert verb(OSError(errno.ENOSPC, "No space left on device")) == 1
+    assert capsys.readouterr() == ("", "zteleop fly: the disk is full; make room on it\n")
 
 
 @pytest.mark.parametrize("error", [ConfigError("no wind"), KeyError("wind")])

@@ -62,5 +62,12 @@ def test_a_symbolic_link_is_not_followed(path: str, tmp_path: Path) -> None:
     assert (tmp_path / "elsewhere").read_text() == "keep me"
 
 
+def test_a_pipe_in_its_place_is_no_lock_and_keeps_nobody_waiting(tmp_path: Path) -> None:
+    path = str(tmp_path / "lock")
+    os.mkfifo(path)
+    with pytest.raises(DeviceError, match=f"the lock {path} is no file; see what it is, and remove it"):
+        Lock(path, "the chip")
+
+
 def test_locks_of_the_machine_go_where_everybody_may_write() -> None:
     assert os.stat(machine_folder()).st_mode & 0o002

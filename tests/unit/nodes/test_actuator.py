@@ -159,7 +159,7 @@ def test_it_hears_every_source_it_knows_by_name_and_stops(node: Node, clock: Clo
 def test_the_chip_starts_at_neutral_and_is_left_at_neutral(node: Node, clock: Clock) -> None:
     chip, journal = Chip(), Journal()
     actuator = Actuator(node, DriveSettings(), chip, Link(), Shelf(), journal)
-    assert (chip.log, chip.writes) == (["start"], [NEUTRAL])
+    assert (chip.log, chip.writes) == (["start", "read"], [NEUTRAL])
 
     def spin() -> None:
         raise SystemExit(143)
@@ -167,7 +167,7 @@ def test_the_chip_starts_at_neutral_and_is_left_at_neutral(node: Node, clock: Cl
     node.spin = spin
     with pytest.raises(SystemExit):
         actuator.run()
-    assert chip.log == ["start", "write", "close"]
+    assert chip.log == ["start", "read", "write", "close"]
     assert chip.writes[-1] == NEUTRAL
     assert journal.closed
 

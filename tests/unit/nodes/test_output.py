@@ -253,6 +253,8 @@ def test_what_the_chip_took_last_is_known_and_when(bench: Bench, monkeypatch: py
 
 
 def test_a_stop_is_confirmed_by_what_is_read_back(bench: Bench) -> None:
+    bench.chip.log.clear()
+    bench.output.check(bench.now)
     assert "read" not in bench.chip.log
     stop(bench)
     assert bench.output.evidence.confirmed == "read"
@@ -361,3 +363,17 @@ def test_one_write_that_took_long_is_no_slow_bus(slow: Bench) -> None:
         slow.push()
         assert slow.step() == "driving"
     assert slow.said == []
+
+
+def test_channels_that_another_program_left_on_are_told_as_nothing_stops_them() -> None:
+    bench = Bench()
+    assert bench.said == []
+    bench.chip.pulses |= {4: 1500.0, 7: None, 9: 900.0}
+    bench.output.start(bench.now)
+    (said,) = bench.said
+    assert said.startswith(
+        "channels 4, 9 of the chip put out pulses that another program left on; nothing here"
+    )
+    bench.chip.broken.add("read")
+    bench.output.start(bench.now)
+    assert len(bench.said) == 1
