@@ -10,8 +10,8 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
+import processes
 import pytest
-import rig
 from _pytest.runner import runtestprotocol
 from _pytest.terminal import TerminalReporter
 from stalls import Stalls
@@ -29,7 +29,7 @@ ALONE = 20
 """timing tests at least, of which a share can be told"""
 STALL = 0.15
 """s without a core that a robot may notice: its steps are due every 0.05 s, and late after 0.2 s"""
-stalls = Stalls(lambda: [os.getpid(), *rig.pids()])
+stalls = Stalls(lambda: [os.getpid(), *processes.pids()])
 
 
 def is_timing(item: pytest.Item) -> bool:
@@ -73,15 +73,15 @@ def pytest_runtest_makereport(
     if call.excinfo and (words := why_not_judged(item, call.excinfo.value)):
         report.outcome, report.longrepr, report.not_judged = "passed", None, words
     elif report.failed and call.when == "call":
-        report.sections += [(f"what {name} said", text) for name, text in rig.words() if text]
+        report.sections += [(f"what {name} said", text) for name, text in processes.words() if text]
     if call.when == "teardown":
-        rig.forget_the_ended()
+        processes.forget_the_ended()
     return report
 
 
 def why_not_judged(item: pytest.Item, error: BaseException) -> str:
     """Return what kept a test from a verdict; nothing where it has one."""
-    if isinstance(error, rig.Unmet) and is_order(item) and stalls.longest >= STALL:
+    if isinstance(error, processes.Unmet) and is_order(item) and stalls.longest >= STALL:
         return f"a process waited {stalls.longest:.3f} s for a core: {str(error).splitlines()[0]}"
     return str(error) if isinstance(error, NotJudged) else ""
 

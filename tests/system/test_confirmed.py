@@ -58,5 +58,5 @@ def test_the_keyboard_says_so_as_well_and_takes_it_back_when_the_chip_answers(
     keyboard.type(DELETE)
     keyboard.shows("● fault", HEARD)
     faults.clear()
-    keyboard.shows("● stopped", "bench is stopped (neutral read back from its chip, late)")
+    keyboard.shows("● stopped", "bench is stopped (neutral read back from the chip, late)")
     assert rig.ticks == NEUTRAL

@@ -15,7 +15,7 @@ UP, LEFT, DELETE = "\x1b[A", "\x1b[D", "\x7f"
 OUTPUT = "Currently outputting:[Steering PWM, Throttle PWM] = "
 REPEAT = 0.04
 STOPPED = re.compile(
-    r"bench is stopped \(neutral read back from its chip within \d+ ms\); "
+    r"bench is stopped \(neutral read back from the chip within \d+ ms\); "
     r"zteleop stop --release bench lets it drive again, from neutral\n"
 )
 RELEASED = re.compile(r"bench may drive again, from neutral \(acknowledged within \d+ ms\)\n")
@@ -182,7 +182,7 @@ def test_of_two_stops_by_two_people_each_is_released_by_its_own_name(
     stops.publish(bob)
     hear(statuses, lambda status: status.stops == [bob], "bob's stop")
     keyboard.type(DELETE)
-    keyboard.shows("bench is stopped (neutral read back from its chip")
+    keyboard.shows("bench is stopped (neutral read back from the chip")
     keyboard.type("r")
     keyboard.shows("yours is released, but bench is stopped by bob@sofa")
     assert hear(statuses, lambda status: len(status.stops) < 2, "one released").stops == [bob]

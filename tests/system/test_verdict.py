@@ -72,7 +72,7 @@ PIDS = []
 """
 TEST = """
 import pytest
-from rig import Unmet
+from processes import Unmet
 from stall import stall
 from verdict import NotJudged, excusable, judged
 

@@ -19,7 +19,7 @@ def test_a_stop_that_is_pressed_brings_neutral_at_once(rig: Rig) -> None:
     deadline = Deadline(rig)
     keyboard.type(DELETE)
     deadline.met(lambda: rig.ticks == NEUTRAL, "neutral on the chip", AT_ONCE)
-    keyboard.shows("● stopped", "bench is stopped (neutral read back from its chip")
+    keyboard.shows("● stopped", "bench is stopped (neutral read back from the chip")
 
 
 def test_a_stop_that_is_said_brings_neutral_at_once_under_whoever_goes_on_driving(rig: Rig) -> None:

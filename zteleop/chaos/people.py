@@ -5,6 +5,7 @@ from zteleop.chaos.fault import Fault
 from zteleop.chaos.operators import here
 
 PATIENCE = 2.0
+TWO_PEOPLE = "ann@chaos", "bob@chaos"
 
 
 def press(bench: Bench) -> None:
@@ -41,7 +42,6 @@ def press_by_two_people(bench: Bench) -> None:
 
 def release_one_and_begin_anew(bench: Bench) -> None:
     """End the first stop while the second is in force, and let somebody try to drive."""
-
     first, second = TWO_PEOPLE
 
     def released() -> bool:
@@ -55,7 +55,6 @@ def release_one_and_begin_anew(bench: Bench) -> None:
     bench.meanwhile(here(bench, bench.join()))
 
 
-TWO_PEOPLE = "ann@chaos", "bob@chaos"
 FAULTS = (
     Fault("stop pressed", press, 0.03),
     Fault("stop pressed at three places", press_at_three_places, 0.03, before=go_to_three_places),

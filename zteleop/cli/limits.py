@@ -1,7 +1,6 @@
 """Limits of a machine that were reached, in one sentence: nobody's bug, and somebody can raise them."""
 
 import errno
-import resource
 
 _FULL = {
     errno.ENFILE: "this machine has as many files open as it may; end some programs, or raise fs.file-max",
@@ -17,15 +16,17 @@ def reached(error: BaseException) -> str:
     if isinstance(error, MemoryError):
         return _FULL[errno.ENOMEM]
     if (isinstance(error, OSError) and error.errno == errno.EAGAIN) or _NO_THREAD in str(error):
-        return f"no more threads or processes may start, of {_limit(resource.RLIMIT_NPROC)} (ulimit -u)"
+        return f"no more than {_limit('RLIMIT_NPROC')} processes and threads may run here; raise ulimit -u"
     if not isinstance(error, OSError):
         return ""
     if error.errno == errno.EMFILE:
-        files = _limit(resource.RLIMIT_NOFILE)
+        files = _limit("RLIMIT_NOFILE")
         return f"no more than {files} files may be open here; raise ulimit -n, or LimitNOFILE of its unit"
     return _FULL.get(error.errno or 0, "")
 
 
-def _limit(kind: int) -> str:
-    soft, _ = resource.getrlimit(kind)
-    return "as many as the machine can" if soft == resource.RLIM_INFINITY else str(soft)
+def _limit(kind: str) -> str:
+    import resource  # which not every system has
+
+    soft, _ = resource.getrlimit(getattr(resource, kind))
+    return "these" if soft == resource.RLIM_INFINITY else str(soft)

@@ -5,20 +5,14 @@ from collections.abc import Iterator
 from zteleop.control import curvature
 from zteleop.control.cap import Bound
 from zteleop.control.drive import Drive, Step
-from zteleop.control.evidence import Evidence
+from zteleop.control.evidence import STANDS, Evidence
 from zteleop.control.mux import Claim
-from zteleop.messages import Confirmed, Layer, Pwm, Twist
+from zteleop.messages import Layer, Pwm, Twist
 
 RECENT = 10.0
 """s for which a refusal is worth a sentence."""
 OLD = 0.1
 """s after which pulses are no longer what the robot means now"""
-CONFIRMED: dict[Confirmed, str] = {
-    "read": "read back from the chip",
-    "cut": "cut off by the OE pin",
-    "": "not confirmed by the chip: cut its power",
-}
-"""How a stop is known to have reached the wheels."""
 _LEAST = 0.005
 """m/s or rad/s below which two twists are one."""
 
@@ -139,7 +133,7 @@ def _wheels(drive: Drive, chip: Evidence, now: float) -> str:
     if now - chip.written > OLD:
         said.append(f"which the chip took {now - chip.written:.1f} s ago, and nothing since")
     if drive.latch.stops:
-        said.append(CONFIRMED[chip.confirmed])
+        said.append(STANDS[chip.confirmed])
     return "; ".join(said)
 
 

@@ -56,24 +56,24 @@ class Output:
         began = clock.now()
         try:
             self._take(pulse_us)
-            self._failed = 0
         except DeviceError as error:
             self._failed += 1
             if self._failed >= FAILED_STEPS:
                 self._break(str(error), now)
-        self._notice_slowness(clock.now() - began, now)
+        else:
+            self._failed = 0
+            self._notice_slowness(self._written - began, now)
 
     def check(self, now: float) -> None:
         """Read back what the chip must not forget; after a dip of its supply, writes still succeed.
 
         Not on a slow bus, where whatever is read holds up the next neutral.
         """
-        if self._broken or self._slow:
-            return
-        try:
-            self._look_twice()
-        except DeviceError as error:
-            self._break(str(error), now)
+        if not self._broken and not self._slow:
+            try:
+                self._look_twice()
+            except DeviceError as error:
+                self._break(str(error), now)
         self.confirm()
 
     def confirm(self) -> None:
@@ -100,6 +100,7 @@ class Output:
     def _take(self, pulse_us: Mapping[int, float]) -> None:
         self._driver.write(pulse_us)
         self._taken, self._written = pulse_us, clock.now()
+        self._reads_rest = self._reads_rest and pulse_us == self._neutral_us
 
     def _start(self) -> None:
         self._driver.start(self._neutral_us)
@@ -111,8 +112,8 @@ class Output:
             found = self._driver.read([channel for channel in CHANNELS if channel not in self._neutral_us])
             if moving := [str(channel) for channel, width in found.items() if width is not None]:
                 self._say(
-                    f"channels {', '.join(moving)} of the chip put out pulses that another program left on; "
-                    "nothing here stops them: switch the chip's supply off and on"
+                    f"channels {', '.join(moving)} of the chip put out pulses that are not this robot's; "
+                    "nothing here stops them: end what drives them, or switch the chip's supply off and on"
                 )
 
     def _notice_slowness(self, took: float, now: float) -> None:

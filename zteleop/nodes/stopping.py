@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import Literal
 
 from zteleop.bus.node import Node
+from zteleop.control.evidence import STANDS
 from zteleop.control.hold import HOLDS
 from zteleop.control.stop import MERGED, is_persons, whose
 from zteleop.messages import DriveStatus, Stop
@@ -16,9 +17,6 @@ REPEAT = 3.0
 """s for which a stop is said, also after the answer: longer than any loss of the link that heals by itself"""
 SETTLED = 0.5
 """s since a stop was heard, after which whoever waits is told what chip and disk have not confirmed"""
-SEEN = {"read": "neutral read back from its chip", "cut": "its outputs are cut"}
-"""How a robot is known to stand."""
-UNSEEN = "not confirmed by the chip: cut its power"
 NEVER = float("-inf")
 _ID_BITS = 53  # what every JSON reader can count
 _LONGEST = 200
@@ -142,13 +140,13 @@ class Stopping:
         self._heard = now if self._heard == NEVER else self._heard
         settled = now - self._heard >= SETTLED
         if status.confirmed and (settled or not status.unkept):
-            seen = f"{SEEN[status.confirmed]}{', late' if self.unanswered else f' {self._within(now)}'}"
+            seen = f"{STANDS[status.confirmed]}{', late' if self.unanswered else f' {self._within(now)}'}"
             self._end("done", f"{self.robot} is stopped ({seen}){_unkept(status)}", now)
         elif settled:
             self._fail_unseen(f" ({status.why})" if status.state == "fault" else "", now)
 
     def _fail_unseen(self, cause: str, now: float) -> None:
-        words = f"{self.robot} heard the stop, {UNSEEN}{cause}"
+        words = f"{self.robot} heard the stop, {STANDS['']}{cause}"
         if words != self.words:
             self._end("failed", words, now)
 

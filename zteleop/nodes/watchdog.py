@@ -35,9 +35,9 @@ FORGIVE_EVERY = 2.0
 """s; a watchdog that is late all the time would otherwise hear no silence at all"""
 BLIND = 0.25
 """s and `LOOKS` in a row without a look at the chip until its outputs are cut: it may repeat any pulses"""
-LOOKS = 3
-PER_LOOK = 2
-"""times what a look took, that the actuator may be silent for in addition: each needs some transfers"""
+LOOKS = 2
+PER_LOOK, AT_MOST = 2, 1.0
+"""times what a look took, and s, that the actuator may be silent in addition: it waits for the same bus"""
 YIELD = 5
 """times as long as a look took, until the next one"""
 FAREWELL = 0.25
@@ -122,6 +122,7 @@ class Watchdog:
     def _greet(self) -> None:
         """Let the outputs through, and tell a new actuator of stops that may be on no disk."""
         self._why, self._start_patience = "the actuator steps", START
+        self._seen, self._blind = clock.now(), 0
         self._cut(False)
         for stop in self._ears.stops:
             self._tell_stop(stop)
@@ -133,22 +134,21 @@ class Watchdog:
         if now - self._ticked > LATE and now - self._woke > FORGIVE_EVERY:
             self._woke = now
         self._ticked = now
-        self._listen(now)
+        if ignored := self._ears.listen(now):
+            self._engage(ignored)
         if self._restart_at is not None:
             self._keep_at_rest(now)
         elif self._silent(now):
             self._fell(self._lose_patience(now), 0.0, late=True)
-
-    def _listen(self, now: float) -> None:
-        if ignored := self._ears.listen(now):
-            self._engage(ignored)
 
     def _silent(self, now: float) -> bool:
         """Say whether the actuator has been silent for too long while the watchdog was there to hear it.
 
         One that waits for a slow bus is not dead, and the looks tell how slow the bus is.
         """
-        limit = SILENCE + PER_LOOK * self._look_took if self._child.ready else self._start_patience
+        limit = self._start_patience
+        if self._child.ready:
+            limit = SILENCE + min(PER_LOOK * self._look_took, AT_MOST)
         return min(self._child.silence(now), now - self._woke) > limit
 
     def _lose_patience(self, now: float) -> str:
@@ -172,7 +172,7 @@ class Watchdog:
         if self._restart_at is not None or not self._child.ready or began < self._look_after:
             return
         try:
-            pulses = self._hand.read(self._judge.neutral_us)
+            why = self._judge.look(self._hand.read(self._judge.neutral_us), clock.now())
         except DeviceError as error:
             self._node.log.warn(f"cannot read the chip: {error}", "read")
             self._miss()
@@ -180,8 +180,6 @@ class Watchdog:
         finally:  # on a slow bus whoever writes comes first
             self._look_took = clock.now() - began
             self._look_after = began + YIELD * self._look_took
-        self._listen(clock.now())  # what was said during a slow look may be what allows it
-        why = self._judge.look(pulses, began)
         self._seen, self._blind = clock.now(), 0
         if why and not self._judge.stopped:
             self._engage(Stop(engaged=True, id=secrets.randbits(53), by="the watchdog", why=why))

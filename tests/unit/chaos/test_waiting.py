@@ -48,6 +48,7 @@ def test_of_each_process_the_longest_waiting_thread_counts(kernel: Kernel) -> No
     kernel.wait(1, 2, 10.5)
     kernel.wait(5, 5, 10.1)
     assert meter.waited == pytest.approx(0.6)
+    assert meter.longest == pytest.approx(0.5)
 
 
 def test_who_is_not_on_the_path_excuses_nobody(kernel: Kernel) -> None:

@@ -16,7 +16,9 @@ def test_too_many_files_say_how_many_may_be_open_and_how_to_have_more() -> None:
     "error", [OSError(errno.EAGAIN, "try again"), RuntimeError("can't start new thread")]
 )
 def test_too_many_threads_say_so(error: Exception) -> None:
-    assert limits.reached(error).startswith("no more threads or processes may start, of ")
+    said = limits.reached(error)
+    assert said.startswith("no more than ")
+    assert said.endswith(" processes and threads may run here; raise ulimit -u")
 
 
 @pytest.mark.parametrize(

@@ -96,7 +96,7 @@ def typed(
 def test_a_stop_is_one_line_that_says_how_to_release_it(latch: Latch, typed: Type) -> None:
     assert typed(latch, "archangel", "--why", "a cat") == (
         0,
-        "archangel is stopped (neutral read back from its chip within 10 ms); "
+        "archangel is stopped (neutral read back from the chip within 10 ms); "
         "zteleop stop --release archangel lets it drive again, from neutral\n",
         "",
     )

@@ -210,8 +210,8 @@ def test_explaining_changes_nothing(command: Twist | Pwm) -> None:
 @pytest.mark.parametrize(
     ("confirmed", "words"),
     [
-        ("read", "read back from the chip"),
-        ("cut", "cut off by the OE pin"),
+        ("read", "neutral read back from the chip"),
+        ("cut", "its outputs are cut"),
         ("", "not confirmed by the chip: cut its power"),
     ],
 )

@@ -280,6 +280,14 @@ def test_a_chip_that_cannot_be_read_confirms_nothing_unless_it_is_cut_off(bench:
     assert bench.output.evidence.confirmed == "cut"
 
 
+def test_a_chip_that_takes_no_neutral_any_more_confirms_nothing_from_then_on(bench: Bench) -> None:
+    stop(bench)
+    bench.chip.broken |= {"write", "start"}
+    for _ in range(FAILED_STEPS):
+        bench.step()
+    assert bench.output.evidence.confirmed == ""
+
+
 def test_a_fault_is_not_hidden_by_a_stop(bench: Bench) -> None:
     stop(bench)
     bench.break_down()
@@ -371,9 +379,37 @@ def test_channels_that_another_program_left_on_are_told_as_nothing_stops_them() 
     bench.chip.pulses |= {4: 1500.0, 7: None, 9: 900.0}
     bench.output.start(bench.now)
     (said,) = bench.said
-    assert said.startswith(
-        "channels 4, 9 of the chip put out pulses that another program left on; nothing here"
-    )
+    assert said.startswith("channels 4, 9 of the chip put out pulses that are not this robot's; nothing here")
     bench.chip.broken.add("read")
     bench.output.start(bench.now)
     assert len(bench.said) == 1
+
+
+def test_what_was_read_back_before_is_no_word_of_the_next_stop(bench: Bench) -> None:
+    stop(bench)
+    bench.drive.stop(Stop(engaged=False, id=7, by="ann@desk", why=""), bench.now)
+    bench.step()
+    bench.push()
+    assert bench.step() == "driving"
+    bench.chip.broken |= {"write", "read"}
+    bench.drive.stop(Stop(engaged=True, id=8, by="ann@desk", why=""), bench.now)
+    bench.step()
+    assert bench.output.evidence.confirmed == ""
+
+
+def test_a_stop_that_was_confirmed_is_not_on_a_bus_that_has_become_slow(slow: Bench) -> None:
+    slow.chip.takes = 0.0
+    stop(slow)
+    assert slow.output.evidence.confirmed == "read"
+    slow.chip.takes = SLOW + 0.01
+    slow.step()
+    slow.output.check(slow.now)
+    assert slow.output.evidence.confirmed == ""
+
+
+def test_writes_that_take_long_to_fail_are_the_fault_of_a_chip_that_does_not_answer(slow: Bench) -> None:
+    slow.chip.broken.add("write")
+    for _ in range(2 * SLOW_WRITES):
+        slow.push()
+        slow.step()
+    assert slow.said == ["the chip is at fault: the chip does not take a write"]

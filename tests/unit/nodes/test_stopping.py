@@ -77,7 +77,7 @@ def test_a_stop_is_said_at_once_and_twenty_times_a_second_until_it_is_shown(aske
     assert asker.said.take() == [stop] * round(1.0 / EVERY)
     assert asker.stopping.state == "pending"
     assert asker.heed(stopped(stop.id))
-    assert asker.outcome == ("done", "archangel is stopped (neutral read back from its chip within 1010 ms)")
+    assert asker.outcome == ("done", "archangel is stopped (neutral read back from the chip within 1010 ms)")
 
 
 def test_a_stop_is_said_for_three_seconds_also_after_the_answer(asker: Asker) -> None:
@@ -149,7 +149,7 @@ def test_an_answer_that_comes_late_is_an_answer(asker: Asker) -> None:
     assert asker.stopping.unanswered
     asker.heed(stopped(stop.id))
     assert not asker.stopping.unanswered
-    assert asker.outcome == ("done", "archangel is stopped (neutral read back from its chip, late)")
+    assert asker.outcome == ("done", "archangel is stopped (neutral read back from the chip, late)")
 
 
 HEARD = "archangel heard the stop, not confirmed by the chip: cut its power"
@@ -170,7 +170,15 @@ def test_a_stop_that_the_chip_does_not_confirm_is_no_stop(asker: Asker) -> None:
     assert asker.stopping.unanswered
     assert asker.stopping.repeats(asker.now)
     asker.heed(shows("stopped", ours))
-    assert asker.outcome == ("done", "archangel is stopped (neutral read back from its chip, late)")
+    assert asker.outcome == ("done", "archangel is stopped (neutral read back from the chip, late)")
+
+
+def test_a_stop_that_was_heard_only_and_is_released_is_said_no_more(asker: Asker) -> None:
+    ours = asker.engage()
+    asker.wait(SETTLED + 2 * TICK, shows("stopped", ours, confirmed=""))
+    assert asker.stopping.state == "failed"
+    asker.heed(idle())
+    assert not asker.stopping.repeats(asker.now)
 
 
 def test_a_robot_that_falls_silent_before_its_chip_confirms_is_no_better(asker: Asker) -> None:

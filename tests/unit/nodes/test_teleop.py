@@ -318,7 +318,7 @@ def test_the_answer_to_a_stop_is_the_note_for_a_while(desk: Desk) -> None:
     desk.tick()
     desk.hear_log("stopped: by ann")
     desk.tick()
-    assert desk.views[-1].note == "archangel is stopped (neutral read back from its chip within 50 ms)"
+    assert desk.views[-1].note == "archangel is stopped (neutral read back from the chip within 50 ms)"
     desk.tick(round(NEWS / PERIOD))
     assert desk.views[-1].note == "actuator: stopped: by ann"
     assert not any(view.alarm for view in desk.views)

@@ -18,10 +18,12 @@ from zteleop.nodes import service
 from zteleop.nodes import watchdog as module
 from zteleop.nodes.link import CUT, DEAF, HEARS, UNWATCHED, Report
 from zteleop.nodes.watchdog import (
+    AT_MOST,
     BLIND,
     FAREWELL,
     LATE,
     LOOK_EVERY,
+    LOOKS,
     PERIOD,
     REST_PATIENCE,
     SILENCE,
@@ -398,6 +400,16 @@ def test_a_chip_that_cannot_be_read_is_said_and_nobody_is_killed_for_it(awake: K
     assert awake.child.starts == 1
 
 
+def take_long(awake: Kennel, seconds: float) -> None:
+    read = awake.hand.read
+
+    def slowly(channels: Iterable[int]) -> dict[int, float | None]:
+        awake.clock.time += seconds
+        return read(channels)
+
+    awake.hand.read = slowly
+
+
 def test_a_chip_that_cannot_be_read_for_a_while_is_cut_off_until_it_can(awake: Kennel) -> None:
     """Nobody can say what it puts out, nor change it; the actuator is told, as a stop is confirmed by it."""
     awake.hand.broken.add("read")
@@ -414,6 +426,22 @@ def test_a_chip_that_cannot_be_read_for_a_while_is_cut_off_until_it_can(awake: K
     assert awake.enabled == [True, False, True]
     assert awake.child.words[-1] == HEARS
     assert awake.child.starts == 1
+
+
+def test_a_chip_on_a_bus_that_hangs_is_cut_off_as_well(awake: Kennel) -> None:
+    take_long(awake, 0.06)  # what three attempts of 20 ms come to
+    awake.hand.broken.add("read")
+    began = awake.clock.time
+    awake.until(lambda: awake.enabled[-1] is False)
+    assert awake.clock.time - began <= 0.5
+
+
+def test_one_look_that_fails_cuts_nothing_however_long_it_took(awake: Kennel) -> None:
+    take_long(awake, 0.5)
+    awake.hand.broken.add("read")
+    awake.live(PERIOD * 5)
+    assert awake.dog._blind == 1
+    assert awake.enabled == [True]
 
 
 def test_a_moment_without_a_look_cuts_nothing(awake: Kennel) -> None:
@@ -493,39 +521,32 @@ def test_its_looks_leave_a_slow_bus_to_whoever_writes(awake: Kennel) -> None:
     assert len(looks) >= 3
 
 
-def take_long(awake: Kennel, seconds: float) -> None:
-    read = awake.hand.read
-
-    def slowly(channels: Iterable[int]) -> dict[int, float | None]:
-        awake.clock.time += seconds
-        return read(channels)
-
-    awake.hand.read = slowly
-
-
 def test_an_actuator_that_waits_for_a_slow_bus_is_not_killed_for_it(awake: Kennel) -> None:
     """Its looks tell how slow the bus is: as many transfers are between two steps of an actuator."""
-    take_long(awake, 0.3)
-    awake.live(0.1)
+    awake.dog._look_took, awake.dog._look_after = 0.3, float("inf")
     awake.child.frozen = True
-    awake.live(SILENCE + 0.3)
-    assert awake.child.starts == 1
-    awake.live(0.6)
-    assert awake.child.log[-1].startswith("end") or awake.child.starts == 2
+    seconds = awake.until(lambda: awake.resting)
+    assert SILENCE + 0.6 - PERIOD <= seconds <= SILENCE + 0.6 + 3 * PERIOD
 
 
-def test_what_is_said_during_a_slow_look_may_be_what_allows_the_pulses(awake: Kennel) -> None:
-    read = awake.hand.read
+def test_however_long_a_look_took_an_actuator_that_stands_still_is_found(awake: Kennel) -> None:
+    awake.dog._look_took, awake.dog._look_after = 3.0, float("inf")
+    awake.child.frozen = True
+    seconds = awake.until(lambda: awake.resting)
+    assert seconds <= SILENCE + AT_MOST + 3 * PERIOD
 
-    def slowly(channels: Iterable[int]) -> dict[int, float | None]:
-        awake.clock.time += 0.3
-        awake.hear("pwm/keyboard", PUSH)
-        awake.hand.pulses = dict(MOVING)
-        return read(channels)
 
-    awake.hand.read = slowly
-    awake.live(5.0)
-    assert awake.shelf.stops == []
+def test_looks_that_failed_under_one_actuator_do_not_cut_off_the_next(awake: Kennel) -> None:
+    awake.hand.broken.add("read")
+    awake.live(0.2)
+    awake.hand.broken.clear()
+    awake.child.dead = True
+    awake.hear_actuator()
+    awake.until(lambda: awake.restarted)
+    awake.hand.broken.add("read")
+    awake.live(0.2)
+    assert awake.dog._blind >= LOOKS
+    assert awake.enabled == [True, True]
 
 
 def test_neutral_is_written_until_the_process_is_gone_as_well(awake: Kennel) -> None:

@@ -1,0 +1,233 @@
+"""Processes, with a terminal or without: what they say is awaited, and shown when a test fails."""
+
+import os
+import pty
+import signal
+import subprocess
+import sys
+import termios
+import threading
+import time
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from fcntl import ioctl
+from pathlib import Path
+from struct import pack
+from typing import IO, Any
+
+import pyte
+
+PATIENCE = 30.0 * float(os.environ.get("ZTELEOP_PATIENCE", "1"))
+"""s until an event that is awaited is given up: no claim, only the end of hope"""
+ZTELEOP = (sys.executable, "-m", "zteleop")
+TAKE_TERMINAL = """
+import fcntl, os, sys, termios
+fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+os.execv(sys.executable, [sys.executable, *sys.argv[1:]])
+"""
+
+
+class Unmet(AssertionError):  # noqa: N818  not always an error of the product
+    """What was awaited never came: a machine alone can do that, which keeps a robot from its core.
+
+    Whoever drove must begin anew then, and a test does not. See `judging.py`.
+    """
+
+
+def until(condition: Callable[[], object], what: str) -> None:
+    """Wait for what no event tells of, such as a register; how long it takes is `verdict`'s to judge."""
+    began = time.monotonic()
+    while not condition():
+        if time.monotonic() - began >= PATIENCE:
+            raise Unmet(f"not within {PATIENCE:g} s: {what}")
+        time.sleep(0.0005)
+
+
+_started: list["Process"] = []
+"""Processes whose words a failed test shows."""
+
+
+def words() -> list[tuple[str, str]]:
+    """Return the command and the last words of every process that was started and not forgotten."""
+    return [(" ".join(process.command[-9:])[-100:], process.text[-3000:]) for process in _started]
+
+
+def pids() -> list[int]:
+    """Return every process that was started and runs, an actuator after its watchdog."""
+    found = [(process.process.pid, process.child) for process in _started if process.process.poll() is None]
+    return [pid for pair in found for pid in pair if pid]
+
+
+def forget_the_ended() -> None:
+    """Leave out the processes of tests that are over."""
+    _started[:] = [process for process in _started if process.process.poll() is None]
+
+
+class Process:
+    """A process of its own, whose lines can be awaited."""
+
+    def __init__(self, command: Sequence[str], environment: Mapping[str, str], folder: Path) -> None:
+        self._said = threading.Condition()
+        self.lines: list[str] = []
+        self._start(command, environment, folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE)
+
+    def _start(
+        self,
+        command: Sequence[str],
+        environment: Mapping[str, str],
+        folder: Path,
+        stdin: int,
+        stdout: int,
+    ) -> None:
+        self.process = subprocess.Popen(
+            command,
+            env=environment,
+            cwd=folder,
+            stdin=stdin,
+            stdout=stdout,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+        )
+        self.command = command
+        self._reader = threading.Thread(target=self._read, args=(self.process.stdout,), daemon=True)
+        self._reader.start()
+        _started.append(self)
+
+    def _read(self, output: IO[bytes]) -> None:
+        for line in output:
+            with self._said:
+                self.lines.append(line.decode(errors="replace").rstrip("\n"))
+                self._said.notify_all()
+        with self._said:
+            self._said.notify_all()
+
+    @property
+    def text(self) -> str:
+        return "\n".join(self.lines)
+
+    def says(self, text: str) -> str:
+        """Wait for a line that holds a text."""
+        with self._said:
+            found = self._said.wait_for(lambda: next((x for x in self.lines if text in x), None), PATIENCE)
+        if not found:
+            raise Unmet(f"never said {text!r}:\n{self.text}")
+        return found
+
+    def signal(self, number: int) -> None:
+        self.process.send_signal(number)
+
+    @property
+    def child(self) -> int | None:
+        """The actuator that this process started and watches over, if there is one now."""
+        pid = self.process.pid
+        with suppress(OSError):
+            for child in Path(f"/proc/{pid}/task/{pid}/children").read_text().split():
+                if b"--record" not in Path(f"/proc/{child}/cmdline").read_bytes().split(b"\0"):
+                    return int(child)
+        return None
+
+    def ends(self) -> int:
+        """Wait for the end; return the exit code."""
+        code = self.process.wait(PATIENCE)
+        self._reader.join(PATIENCE)
+        return code
+
+    def close(self) -> None:
+        if self.process.poll() is None:
+            self.process.send_signal(signal.SIGCONT)
+            self.process.kill()
+        self.process.wait()
+        self._reader.join()
+        if self.process.stdout:
+            self.process.stdout.close()
+
+
+class Terminal(Process):
+    """A process in the foreground of a terminal that controls it; what is shown can be awaited."""
+
+    def __init__(
+        self,
+        arguments: Sequence[str],
+        environment: Mapping[str, str],
+        folder: Path,
+        columns: int = 80,
+        rows: int = 24,
+    ) -> None:
+        self._said = threading.Condition()
+        self._screen = pyte.Screen(columns, rows)
+        self._stream = pyte.ByteStream(self._screen)
+        self.output = b""
+        self._master, self._slave = pty.openpty()
+        self._set_size(columns, rows)
+        self.found = self.modes()
+        command = [sys.executable, "-c", TAKE_TERMINAL, *arguments]
+        self._start(command, environment, folder, stdin=self._slave, stdout=self._slave)
+
+    @property
+    def screen(self) -> str:
+        with self._said:
+            return "\n".join(line.rstrip() for line in self._screen.display)
+
+    def modes(self) -> list[Any]:
+        return termios.tcgetattr(self._slave)
+
+    def type(self, keys: str) -> None:
+        os.write(self._master, keys.encode())
+
+    def resize(self, columns: int, rows: int) -> None:
+        """Do what a terminal's window does when it is dragged larger or smaller."""
+        with self._said:
+            self._screen.resize(rows, columns)
+        self._set_size(columns, rows)
+
+    @property
+    def text(self) -> str:
+        return self.screen
+
+    def shows(self, *texts: str) -> str:
+        """Wait until all these texts are on the screen together; return the screen."""
+
+        def found() -> bool:
+            return all(text in "\n".join(self._screen.display) for text in texts)
+
+        with self._said:
+            seen = self._said.wait_for(found, PATIENCE)
+        if not seen:
+            raise Unmet(f"never showed {texts}:\n{self.screen}")
+        return self.screen
+
+    def is_as_found(self) -> None:
+        """Wait until the terminal is left: its modes, its screen, its cursor and its way to paste."""
+
+        def left() -> bool:
+            return all(
+                self.output.rfind(b"\x1b[?%s" % off) >= self.output.rfind(b"\x1b[?%s" % on)
+                for on, off in ((b"1049h", b"1049l"), (b"25l", b"25h"), (b"2004h", b"2004l"))
+            )
+
+        with self._said:
+            assert self._said.wait_for(left, PATIENCE), f"not left: {self.output[-200:]!r}"
+        assert self.modes() == self.found
+
+    def close(self) -> None:
+        if self.process.poll() is None:
+            self.process.kill()
+        self.process.wait()
+        os.close(self._slave)
+        self._reader.join()
+        os.close(self._master)
+
+    def ends(self) -> int:
+        return self.process.wait(PATIENCE)
+
+    def _set_size(self, columns: int, rows: int) -> None:
+        """Set the size; the kernel tells whoever is in the foreground by SIGWINCH."""
+        ioctl(self._slave, termios.TIOCSWINSZ, pack("HHHH", rows, columns, 0, 0))
+
+    def _read(self, output: IO[bytes]) -> None:
+        with suppress(OSError):  # EIO: nobody holds the other end any more
+            while data := os.read(self._master, 65536):
+                with self._said:
+                    self.output += data
+                    self._stream.feed(data)
+                    self._said.notify_all()
