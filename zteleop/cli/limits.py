@@ -2,6 +2,11 @@
 
 import errno
 
+try:
+    import resource  # now: when no more files may be open, it is too late
+except ImportError:  # which is no Unix
+    resource = None  # type: ignore[assignment]
+
 _FULL = {
     errno.ENFILE: "this machine has as many files open as it may; end some programs, or raise fs.file-max",
     errno.ENOMEM: "this machine has no memory left; end some programs",
@@ -26,7 +31,7 @@ def reached(error: BaseException) -> str:
 
 
 def _limit(kind: str) -> str:
-    import resource  # which not every system has
-
+    if resource is None:
+        return "these"
     soft, _ = resource.getrlimit(getattr(resource, kind))
     return "these" if soft == resource.RLIM_INFINITY else str(soft)
