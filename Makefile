@@ -8,8 +8,11 @@ BIN := .venv/bin
 demo: .venv/installed
 	@$(BIN)/zteleop demo
 
+# What claims an order shares the machine, three tests at a time; what claims a duration has it alone, afterwards.
 test: .venv/installed-dev
-	@$(BIN)/pytest
+	@$(BIN)/pytest --numprocesses 3 --dist loadfile --no-loadscope-reorder --durations 20 \
+		tests/system tests/faults tests/fuzz tests/unit; \
+	order=$$?; $(BIN)/pytest --durations 20 tests/timing && exit $$order
 
 lint: .venv/installed-dev
 	$(BIN)/ruff check
@@ -31,13 +34,14 @@ bench: .venv/installed-dev
 # of driving under load.
 soak: .venv/installed-dev
 	$(BIN)/zteleop chaos --times 50
+	ZTELEOP_STEPS=2_000_000 $(BIN)/pytest --timeout 0 tests/unit/control/test_states.py
 	cd tests && ../$(BIN)/python -m faults.matrix
 	cd tests && ../$(BIN)/python -m faults.link.table
 	cd tests && ../$(BIN)/python -m faults.endurance
 	$(BIN)/python benchmarks/under_load.py --seconds 600
 
 fuzz: .venv/installed-dev
-	@$(BIN)/pip install --quiet --disable-pip-version-check --editable '.[fuzz]'
+	@$(BIN)/pip install --quiet --retries 10 --disable-pip-version-check --editable '.[fuzz]'
 	@cd tests && for target in $$(../$(BIN)/python -m fuzz.coverage --list); do \
 		../$(BIN)/python -m fuzz.coverage $$target --seconds $(or $(SECONDS_EACH),60) || exit 1; done
 
@@ -51,10 +55,10 @@ clean:
 		{ echo "Python's venv module is missing; say: sudo apt install python3-venv"; exit 1; }
 	@echo "installing into .venv ..."
 	@test -x $(BIN)/python || $(PYTHON) -m venv .venv
-	@$(BIN)/pip install --quiet --disable-pip-version-check --editable .
+	@$(BIN)/pip install --quiet --retries 10 --disable-pip-version-check --editable .
 	@touch $@
 
 .venv/installed-dev: .venv/installed
 	@echo "installing what the tests need ..."
-	@$(BIN)/pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	@$(BIN)/pip install --quiet --retries 10 --disable-pip-version-check --editable '.[dev]'
 	@touch $@

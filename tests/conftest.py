@@ -1,18 +1,15 @@
+import signal
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from hypothesis import settings
-from judging import (  # noqa: F401  hooks
-    pytest_collection_modifyitems,
-    pytest_report_teststatus,
-    pytest_runtest_makereport,
-    pytest_runtest_protocol,
-    pytest_sessionfinish,
-    pytest_terminal_summary,
-)
 from rig import Rig
 
+pytest_plugins = ["judging", "leaks"]
+# What runs in a shell's background ignores both, and so would all that the tests start and end by them.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+signal.signal(signal.SIGQUIT, signal.SIG_DFL)
 settings.register_profile("shared machine", deadline=None)
 settings.load_profile("shared machine")
 

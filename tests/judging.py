@@ -22,11 +22,11 @@ from zteleop.chaos.waiting import await_quiet
 TRIES = 3
 QUIET_WITHIN = 5.0
 AT_MOST = 0.05
-"""of the timing tests may stay without a verdict"""
+"""of the tests that a machine can disturb may stay without a verdict"""
 IN_A_ROW = 3
 """runs in which the same test may not"""
 ALONE = 20
-"""timing tests at least, of which a share can be told"""
+"""of them at least, of which a share can be told"""
 STALL = 0.15
 """s without a core that a robot may notice: its steps are due every 0.05 s, and late after 0.2 s"""
 stalls = Stalls(lambda: [os.getpid(), *processes.pids()])
@@ -70,6 +70,7 @@ def pytest_runtest_makereport(
     item: pytest.Item, call: pytest.CallInfo[None]
 ) -> Iterator[None]:  # yields the report, returns it
     report = yield
+    report.claims = is_timing(item) or is_order(item)
     if call.excinfo and (words := why_not_judged(item, call.excinfo.value)):
         report.outcome, report.longrepr, report.not_judged = "passed", None, words
     elif report.failed and call.when == "call":
@@ -111,16 +112,22 @@ def pytest_terminal_summary(terminalreporter: TerminalReporter) -> None:
 def pytest_sessionfinish(session: pytest.Session) -> None:
     """Fail a run whose machine was too busy for too many of its claims, or for one again and again."""
     reporter = session.config.pluginmanager.get_plugin("terminalreporter")
-    timing = [item.nodeid for item in session.items if is_timing(item)]
-    if reporter is None or not timing:
-        return
+    if reporter is None:
+        return  # a worker; what it found is told by whoever started it
+    ran = {
+        report.nodeid: report
+        for reports in reporter.stats.values()
+        for report in reports
+        if isinstance(report, pytest.TestReport)
+    }
     unjudged = {report.nodeid for report in reporter.stats.get("not judged", [])}
-    rows = Ledger(ledger_file()).note([item.nodeid for item in session.items], unjudged)
+    claims = [nodeid for nodeid, report in ran.items() if getattr(report, "claims", False)]
+    rows = Ledger(ledger_file()).note([*ran], unjudged)
     stuck = sorted(nodeid for nodeid, row in rows.items() if row >= IN_A_ROW)
-    if len(unjudged) > AT_MOST * max(len(timing), ALONE) or stuck:
+    if len(unjudged) > AT_MOST * max(len(claims), ALONE) or stuck:
         session.exitstatus = session.exitstatus or pytest.ExitCode.TESTS_FAILED
         reporter.write_line(
-            f"too many claims of time could not be judged: {len(unjudged)} of {len(timing)} tests"
+            f"too many tests could not be judged: {len(unjudged)} of {len(claims)}"
             + "".join(f"; {nodeid} in {rows[nodeid]} runs in a row" for nodeid in stuck)
         )
 

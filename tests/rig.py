@@ -1,14 +1,16 @@
 """A robot on a bench: real processes on a real bus of their own, watched at the chip's registers."""
 
 import os
+import random
 import re
 import socket
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import ExitStack, closing, contextmanager
+from contextlib import ExitStack, closing, contextmanager, suppress
 from pathlib import Path
 from typing import Self, TypeVar
 
@@ -29,10 +31,16 @@ THROTTLE, STEERING = 0, 1
 NEUTRAL = (375, 370)
 
 
+PORTS = range(10_000, 30_000)
+"""below those that kernels give to whoever connects: nobody takes one before it is listened on"""
+
+
 def free_port() -> int:
-    with closing(socket.socket()) as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
+    while True:
+        port = random.choice(PORTS)
+        with closing(socket.socket()) as probe, suppress(OSError):
+            probe.bind(("127.0.0.1", port))
+            return port
 
 
 def hear(inbox: Subscription[M], wanted: Callable[[M], bool], what: str) -> M:
@@ -100,6 +108,8 @@ class Rig:
         (folder / "config.toml").write_text(f'[drivers.simulated]\npath = "{self.chip}"\n')
         self.registers = open_registers(self.chip)
         self._stack = ExitStack()
+        # A watchdog that is killed leaves its folder, whose path must be short: sockets lie in it.
+        self.environment["TMPDIR"] = self._stack.enter_context(tempfile.TemporaryDirectory(prefix="r"))
         self._stack.callback(self.registers.close)
         self._processes: list[Process] = []
 

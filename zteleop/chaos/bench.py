@@ -80,6 +80,7 @@ class Bench:
         return {
             "XDG_STATE_HOME": f"{self.folder}/state",
             "XDG_RUNTIME_DIR": str(self.folder),
+            "TMPDIR": str(self.folder),  # who is killed leaves its folder
             "PYTHONPATH": os.pathsep.join(path),
             "ZTELEOP_CHAOS_ORDER": str(self.order),
         }

@@ -3,6 +3,7 @@
 import random
 import struct
 import tracemalloc
+from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
@@ -25,8 +26,13 @@ WORTH = 100
 
 
 def peak(data: bytes, kind: type[Message]) -> int:
-    """Return how much memory reading some bytes took at most."""
+    """Return how much memory reading some bytes took at most: the least of three, as others' adds up."""
     read = cdr.decoder(kind)
+    return min(_traced_peak(read, data) for _ in range(3))
+
+
+def _traced_peak(read: Callable[[bytes], object], data: bytes) -> int:
+    """Count what all threads of this process took meanwhile, those of a runner of tests as well."""
     tracemalloc.reset_peak()
     before = tracemalloc.get_traced_memory()[0]
     with suppress(MessageError):
