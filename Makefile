@@ -9,7 +9,10 @@ demo: .venv/installed
 	@$(BIN)/zteleop demo
 
 # What claims an order shares the machine, three tests at a time; what claims a duration has it alone, afterwards.
+# Thousands of processes start meanwhile, so Python keeps what it compiled, whatever the surroundings say.
+test: export PYTHONDONTWRITEBYTECODE =
 test: .venv/installed-dev
+	@$(BIN)/python -m compileall -q zteleop
 	@$(BIN)/pytest --numprocesses 3 --dist loadfile --no-loadscope-reorder --durations 20 \
 		tests/system tests/faults tests/fuzz tests/unit; \
 	order=$$?; $(BIN)/pytest --durations 20 tests/timing && exit $$order
