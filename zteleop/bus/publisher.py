@@ -87,6 +87,15 @@ class Publisher(Generic[M]):
         self._said = type(message)
         self._put(message, encoding, payload)
 
+    def rest(self, message: M) -> None:
+        """Say a neutral message and end the claim, as one does who knows the vehicle already.
+
+        The robot may be heard before it has said what neutral pulses are; whoever let go has, all the same.
+        """
+        self.repeat(message)
+        if self._prover:
+            self._prover.let_go()
+
     def _encode(self, message: Message) -> tuple[zenoh.Encoding, bytes]:
         encoding = self._encodings.get(type(message))
         if encoding is None:

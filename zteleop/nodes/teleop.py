@@ -123,10 +123,12 @@ class Teleop:
 
     def _say(self, command: Twist | Pwm | None) -> None:
         if self._device.drive == "step":
-            self._pwms.repeat(command if isinstance(command, Pwm) else neutral_pwm(self._vehicle))
+            say = self._pwms.repeat if command else self._pwms.rest
+            say(command if isinstance(command, Pwm) else neutral_pwm(self._vehicle))
         else:
+            say_twist = self._twists.repeat if command else self._twists.rest
             twist = command if isinstance(command, Twist) else Twist.planar()
-            self._twists.repeat(TwistStamped(Header(clock.stamp(), "base_link"), twist))
+            say_twist(TwistStamped(Header(clock.stamp(), "base_link"), twist))
 
     def _notice_pause(self, now: float) -> None:
         """Drop what was typed while this process stood still: it was meant for then. A stop counts."""

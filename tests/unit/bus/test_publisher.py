@@ -200,6 +200,19 @@ def test_pulses_of_an_unknown_neutral_let_go_in_silence_and_begin_anew(
     assert operator.proof.began == 10.1
 
 
+def test_neutral_pulses_end_a_claim_although_the_robot_has_not_said_what_neutral_is(
+    operator: Operator,
+) -> None:
+    operator.publisher.publish(Pwm(390, 371))
+    operator.beat(10.0)
+    operator.publisher.rest(Pwm(375, 370))
+    assert operator.proof.began == NEVER
+    operator.vehicles.samples.append(sample(CAR))
+    operator.beat(10.1)
+    operator.publisher.publish(Pwm(390, 371))
+    assert operator.proof.began == 10.1
+
+
 def test_who_commands_nothing_has_nothing_to_let_go() -> None:
     zenoh = ZenohPublisher()
     publisher = Publisher(zenoh, (String,))

@@ -32,6 +32,10 @@ class Said:
     def repeat(self, message: Message) -> None:
         self.messages.append(message)
 
+    def rest(self, message: Message) -> None:
+        self.repeat(message)
+        self.let_go()
+
     def publish(self, message: Message) -> None:
         self.act()
         self.repeat(message)

@@ -122,6 +122,15 @@ def test_neutral_is_said_three_times_and_then_nothing(desk: Desk, steps: Desk) -
     assert [said.twist for said in desk.twists.take()] == [Twist.planar()] * 3
 
 
+def test_neutral_ends_the_claim(desk: Desk) -> None:
+    desk.device.position = Stick(1.0, 0.0, deadman=True)
+    desk.tick(3)
+    assert desk.twists.lets_go == 0
+    desk.device.position = Stick()
+    desk.tick(10)
+    assert desk.twists.lets_go == 3
+
+
 def test_neutral_of_levers_is_the_vehicles_own(steps: Desk) -> None:
     steps.device.position = Stick(1.0, 0.0, deadman=True)
     steps.tick()
