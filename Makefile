@@ -38,6 +38,7 @@ bench: .venv/installed-dev
 soak: .venv/installed-dev
 	$(BIN)/zteleop chaos --times 50
 	ZTELEOP_STEPS=2_000_000 $(BIN)/pytest --timeout 0 tests/unit/control/test_states.py
+	$(BIN)/pytest --timeout 0 --hypothesis-profile long tests/unit
 	cd tests && ../$(BIN)/python -m faults.matrix
 	cd tests && ../$(BIN)/python -m faults.link.table
 	cd tests && ../$(BIN)/python -m faults.endurance

@@ -10,8 +10,10 @@ pytest_plugins = ["judging", "leaks"]
 # What runs in a shell's background ignores both, and so would all that the tests start and end by them.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 signal.signal(signal.SIGQUIT, signal.SIG_DFL)
-settings.register_profile("shared machine", deadline=None)
-settings.load_profile("shared machine")
+# How many examples of each claim about anything at all: `make soak` asks for the long one.
+settings.register_profile("short", deadline=None, max_examples=25)
+settings.register_profile("long", deadline=None, max_examples=1000)
+settings.load_profile("short")
 
 
 @pytest.fixture

@@ -35,12 +35,15 @@ class Places:
         return [f"{place}, by {test}" for place, test in self._by.items()]
 
     def _found(self) -> Iterator[str]:
-        yield from (f"the folder {path}" for path in sorted(self.folder.iterdir()))
-        ours = f"zteleop-{os.getpid()}-*"
-        yield from (f"the network namespace {path.name}" for path in Path("/run/netns").glob(ours))
+        yield from (f"the folder {self.folder / name}" for name in sorted(os.listdir(self.folder)))
+        ours = f"zteleop-{os.getpid()}-"
         with suppress(OSError):
-            mounts = [Path(line.split()[1]) for line in Path("/proc/mounts").read_text().splitlines()]
-            yield from (f"the mount {place}" for place in mounts if set(self.roots) & set(place.parents))
+            names = [name for name in os.listdir("/run/netns") if name.startswith(ours)]
+            yield from (f"the network namespace {name}" for name in names)
+        with suppress(OSError):
+            within = tuple(f"{root}/" for root in self.roots)
+            mounts = [line.split()[1] for line in Path("/proc/mounts").read_text().splitlines()]
+            yield from (f"the mount {place}" for place in mounts if place.startswith(within))
 
 
 def end_processes(tag: str) -> list[str]:

@@ -3,8 +3,6 @@
 import re
 from pathlib import Path
 
-import pytest
-
 ROOT = Path(__file__).parents[2]
 NAMED = [
     named
@@ -13,9 +11,8 @@ NAMED = [
 ]
 
 
-@pytest.mark.parametrize(("path", "name"), NAMED)
-def test_a_line_is_done_when_its_test_is_there(path: str, name: str) -> None:
-    assert f"def {name}(" in (ROOT / path).read_text()
+def test_a_line_is_done_when_its_test_is_there() -> None:
+    assert [(path, name) for path, name in NAMED if f"def {name}(" not in (ROOT / path).read_text()] == []
 
 
 def test_the_pages_name_tests() -> None:

@@ -7,6 +7,7 @@ import zenoh
 
 from zteleop.bus import clock
 from zteleop.bus.presence import Publications
+from zteleop.bus.topics import topic_of
 
 DEPTH = 500
 """messages that wait on each path; a flood beyond it loses the oldest"""
@@ -46,7 +47,11 @@ class Tap:
         self._publications = Publications(session, robot)
 
     def take(self) -> Iterator[Raw]:
-        """Yield what has arrived, topic by topic, without waiting."""
+        """Yield what has arrived, topic by topic, without waiting; what is commanded before what is said.
+
+        Nobody says what he was commanded before the command has arrived. So who commands is asked last, and
+        told first: else an effect that came between two looks would be told before its cause.
+        """
         come, gone = self._publications.changes()
         new = come - self._inboxes.keys() - self._paused.keys()
         for path in sorted(new)[: MOST - len(self._inboxes)]:
@@ -55,17 +60,24 @@ class Tap:
         for path in [path for path, until in self._paused.items() if until <= now]:
             del self._paused[path]
             self._hear(path)
-        for path, inbox in list(self._inboxes.items()):
-            taken = 0
-            while taken < DEPTH and (sample := inbox.try_recv()) is not None:
-                taken += 1
-                key = str(sample.key_expr)
-                yield _raw(sample, key if "*" in key else key.removeprefix(self._prefix), now)
-            if taken >= FLOOD:
-                self._paused[path] = now + PAUSE
-                self._leave(path)
+        heard = list(self._inboxes)
+        said = [raw for path in heard if not _is_commanded(path) for raw in self._empty(path, now)]
+        for path in filter(_is_commanded, heard):
+            yield from self._empty(path, now)
+        yield from said
         for path in gone.difference(self._known):  # their last words are taken
             self._paused.pop(path, None)
+            self._leave(path)
+
+    def _empty(self, path: str, now: float) -> Iterator[Raw]:
+        """Yield what waits on a path; one that is flooded is left for a while."""
+        taken, inbox = 0, self._inboxes[path]
+        while taken < DEPTH and (sample := inbox.try_recv()) is not None:
+            taken += 1
+            key = str(sample.key_expr)
+            yield _raw(sample, key if "*" in key else key.removeprefix(self._prefix), now)
+        if taken >= FLOOD:
+            self._paused[path] = now + PAUSE
             self._leave(path)
 
     def _hear(self, path: str) -> None:
@@ -75,6 +87,10 @@ class Tap:
     def _leave(self, path: str) -> None:
         if inbox := self._inboxes.pop(path, None):
             inbox.undeclare()
+
+
+def _is_commanded(path: str) -> bool:
+    return path == "stop" or topic_of(path).command
 
 
 def _raw(sample: zenoh.Sample, path: str, now: float) -> Raw:

@@ -3,7 +3,7 @@ from typing import Annotated, Any, Literal, get_args, get_origin
 
 import msgspec
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from msgspec import Meta
 
@@ -68,12 +68,11 @@ def read(message: Message, payload: bytes) -> Message:
     return codec.decode(payload, codec.encoding_of(type(message)), codec.decoders([type(message)]))
 
 
-@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
-def test_zeros_of_every_type_survive_the_way(kind: type[Message]) -> None:
-    assert read(kind.zero(), codec.encode(kind.zero())) == kind.zero()
+def test_zeros_of_every_type_survive_the_way() -> None:
+    for kind in KINDS:
+        assert read(kind.zero(), codec.encode(kind.zero())) == kind.zero()
 
 
-@settings(max_examples=100, deadline=None)
 @given(ANY_MESSAGE)
 def test_every_message_survives_the_way(message: Message) -> None:
     payload = codec.encode(message)
@@ -205,7 +204,6 @@ def test_a_types_name_alone_is_no_encoding_of_it() -> None:
     assert codec.decode_any(b'{"data":"hello"}', "std_msgs/msg/String") == {"data": "hello"}
 
 
-@settings(max_examples=60)
 @given(st.builds(Proof, UINT64, UINT64, UINT64, *[st.floats(allow_nan=False)] * 3))
 def test_a_proof_survives_the_way(proof: Proof) -> None:
     packed = codec.pack_proof(proof)

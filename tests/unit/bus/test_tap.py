@@ -102,6 +102,24 @@ def test_a_flood_leaves_the_others_their_turn(bench: Bench) -> None:
     assert bench.paths() == ["stop"] * module.DEPTH + ["beat"]
 
 
+def test_what_was_commanded_is_told_before_what_came_of_it_however_they_arrive(bench: Bench) -> None:
+    bench.announce("drive_status", "pwm/keyboard")
+    assert bench.paths() == []
+
+    class Late(Ring):
+        """Somebody is commanded, and says so, while the box looks at what was said."""
+
+        def try_recv(self) -> Sample | None:
+            said = super().try_recv()
+            if said:
+                bench.say("pwm/keyboard", Sample(b"", key=f"{PREFIX}pwm/keyboard"))
+            return said
+
+    bench.tap._inboxes["drive_status"] = Late(Sample(b"", key=f"{PREFIX}drive_status"))
+    bench.say("beat", Sample(b"", key=f"{PREFIX}beat"))
+    assert bench.paths() == ["pwm/keyboard", "beat", "drive_status"]
+
+
 def test_a_flooded_path_is_not_heard_for_a_while_and_then_again(bench: Bench, clock: Clock) -> None:
     said = Sample(b"", key=f"{PREFIX}stop")
     bench.say("stop", *[said] * module.FLOOD)

@@ -1,5 +1,5 @@
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from zteleop.control.stick import Speeds, Stick, to_pwm
@@ -359,7 +359,6 @@ CHUNKS = st.one_of(
 )
 
 
-@settings(deadline=None)
 @given(st.sampled_from(["step", "hold"]), st.lists(st.tuples(CHUNKS, st.floats(0, 6))), st.integers(-1, 60))
 def test_any_keys_give_a_stick_in_range(drive, chunks, reset_at):
     channels = [

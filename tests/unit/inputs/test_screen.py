@@ -2,7 +2,7 @@ import re
 
 import pyte
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from zteleop.control.stick import Speeds
@@ -176,7 +176,6 @@ def boards(draw) -> Dashboard:
     )
 
 
-@settings(deadline=None, max_examples=200)
 @given(boards(), st.integers(1, 130), st.integers(1, 50), st.booleans(), st.booleans())
 def test_whatever_is_shown_fits(page, columns, rows, unicode, color):
     lines = render(page, columns, rows, unicode=unicode, color=color)

@@ -1,7 +1,7 @@
 from math import atan2, cos, pi, sin
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from zteleop.inputs.top_view import Canvas, draw, pose, slope, window
@@ -127,7 +127,6 @@ def test_what_is_outside_is_not_drawn():
     assert canvas.lines() == ["  "]
 
 
-@settings(deadline=None)
 @given(
     st.integers(1, 60),
     st.integers(1, 30),

@@ -29,13 +29,13 @@ def travelled(kind: type[Message]) -> Any:
     return msgspec.json.decode(msgspec.json.encode(schema(kind, kind.ros_type)))
 
 
-@pytest.mark.parametrize("kind", MESSAGES.values(), ids=MESSAGES)
-def test_every_message_that_travels_as_a_schema_arrives_as_the_same(kind: type[Message]) -> None:
-    found = struct_of(travelled(kind))
-    assert found is not kind
-    assert (found.ros_type, found.__name__) == (kind.ros_type, kind.__name__)
-    assert found.__struct_fields__ == kind.__struct_fields__
-    assert fingerprint(found) == fingerprint(kind)
+def test_every_message_that_travels_as_a_schema_arrives_as_the_same() -> None:
+    for kind in MESSAGES.values():
+        found = struct_of(travelled(kind))
+        assert found is not kind
+        assert (found.ros_type, found.__name__) == (kind.ros_type, kind.__name__)
+        assert found.__struct_fields__ == kind.__struct_fields__
+        assert fingerprint(found) == fingerprint(kind), kind.ros_type
 
 
 def test_its_zero_and_bounds_are_the_same() -> None:

@@ -71,8 +71,13 @@ def test_but_for_those_with_a_char_which_it_takes_for_another(
     assert STORES["jazzy"].hash_rihs01(ros_type) == f"RIHS01_{CHARS[ros_type]}"
 
 
-@pytest.mark.parametrize(("distro", "ros_type"), DIFFERENT)
-def test_every_message_is_the_same_bytes_both_ways(distro: str, ros_type: str) -> None:
+@pytest.mark.parametrize("distro", STORES)
+def test_every_message_is_the_same_bytes_both_ways(distro: str) -> None:
+    for ros_type in (ros_type for its, ros_type in DIFFERENT if its == distro):
+        _compare(distro, ros_type)
+
+
+def _compare(distro: str, ros_type: str) -> None:
     kind, store, dice = struct_for(ros_type, distro), STORES[distro], random.Random(ros_type)
     for _ in range(TIMES):
         message = anything(kind, dice)

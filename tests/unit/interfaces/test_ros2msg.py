@@ -9,7 +9,7 @@ from zteleop.errors import MessageError
 from zteleop.interfaces import ros2msg
 from zteleop.interfaces.declared import declared, parts
 from zteleop.interfaces.ros2msg import struct_of, text
-from zteleop.messages import MESSAGES, Message, String, Time, TwistStamped
+from zteleop.messages import MESSAGES, String, Time, TwistStamped
 from zteleop.messages.message import field_types
 
 BETWEEN = "=" * 80
@@ -29,15 +29,14 @@ def test_a_schema_is_the_texts_of_a_type_and_of_all_within_it() -> None:
     assert lines[-4:] == ["MSG: geometry_msgs/Vector3", "float64 x", "float64 y", "float64 z"]
 
 
-@pytest.mark.parametrize("kind", READABLE, ids=lambda kind: kind.ros_type)
-def test_every_type_comes_back_as_it_is(kind: type[Message]) -> None:
-    found = struct_of(kind.ros_type, text(kind))
-    if kind.ros_type in MESSAGES:
-        assert found is kind
-    ours = [(field.type, field.name) for field in declared(kind).fields]
-    assert [(field.type, field.name) for field in declared(found).fields] == ours
-    assert found.__struct_fields__ == kind.__struct_fields__
-    assert list(parts(found)) == list(parts(kind))
+def test_every_type_comes_back_as_it_is() -> None:
+    for kind in READABLE:
+        found = struct_of(kind.ros_type, text(kind))
+        assert found is kind or kind.ros_type not in MESSAGES
+        ours = [(field.type, field.name) for field in declared(kind).fields]
+        assert [(field.type, field.name) for field in declared(found).fields] == ours, kind.ros_type
+        assert found.__struct_fields__ == kind.__struct_fields__
+        assert list(parts(found)) == list(parts(kind)), kind.ros_type
 
 
 def schema(first: str, **others: str) -> str:

@@ -18,7 +18,7 @@ from zteleop.interfaces.type_description import (
     description_of,
     description_of_kind,
 )
-from zteleop.messages import MESSAGES, Message, Twist, Vector3
+from zteleop.messages import MESSAGES, Twist, Vector3
 from zteleop.messages.message import plain
 
 PACKAGE = "type_description_interfaces/msg"
@@ -94,17 +94,17 @@ def test_whole_services_and_actions_are_described_with_all_that_travels() -> Non
     assert description_of("irobot_create_msgs/action/Undock_SendGoal") != told
 
 
-@pytest.mark.parametrize("kind", kinds(), ids=lambda kind: kind.ros_type)
-def test_every_type_comes_back_as_it_is(kind: type[Message]) -> None:
-    told = definitions_in(description_of_kind(kind))
-    for ros_type, found in told.items():
-        if ros_type.startswith("zteleop_msgs/"):
-            continue
-        ours = described(ros_type)
-        shape = [(f.type._replace(name=f.type.name.replace("char", "uint8")), f.name) for f in ours.fields]
-        assert [(f.type, f.name) for f in found.fields] == shape
-    if kind.ros_type in MESSAGES:
-        assert struct_told(kind.ros_type, told) is kind
+def test_every_type_comes_back_as_it_is() -> None:
+    for kind in kinds():
+        told = definitions_in(description_of_kind(kind))
+        for ros_type in told:
+            if not ros_type.startswith("zteleop_msgs/"):
+                shape = [
+                    (f.type._replace(name=f.type.name.replace("char", "uint8")), f.name)
+                    for f in described(ros_type).fields
+                ]
+                assert [(f.type, f.name) for f in told[ros_type].fields] == shape, ros_type
+        assert kind.ros_type not in MESSAGES or struct_told(kind.ros_type, told) is kind
 
 
 def test_a_struct_of_an_unknown_type_is_made_of_its_description() -> None:

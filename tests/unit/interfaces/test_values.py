@@ -21,10 +21,10 @@ from zteleop.messages import (
 )
 
 
-@pytest.mark.parametrize("kind", MESSAGES.values(), ids=lambda kind: kind.__name__)
 @pytest.mark.parametrize("values", [None, {}])
-def test_nothing_said_is_all_zero(kind: type[Message], values: object) -> None:
-    assert fill(kind, values) == kind.zero()
+def test_nothing_said_is_all_zero(values: object) -> None:
+    for kind in MESSAGES.values():
+        assert fill(kind, values) == kind.zero()
 
 
 def test_what_is_not_said_is_zero() -> None:

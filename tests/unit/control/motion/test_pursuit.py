@@ -1,7 +1,7 @@
 from math import cos, pi, sin
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from unit.control.lockstep import CAR, TANK, Robot
 
@@ -26,7 +26,6 @@ def pursuit(kind: DriveSettings, x: float, y: float, speed: float = 0.5) -> tupl
     [(CAR, 0.5), (CAR, 0.2), (CAR, 3.0), (TANK, 0.3), (TANK, 1.0)],
     ids=["car", "slow car", "fast car", "tank", "fast tank"],
 )
-@settings(max_examples=40)
 @given(heading=ANGLE, bearing=ANGLE, away=st.floats(0, 5))
 def test_any_place_is_reached_from_anywhere(
     kind: DriveSettings, speed: float, heading: float, bearing: float, away: float

@@ -25,10 +25,10 @@ WORTH = 100
 """bytes of Python's for one that came: the smallest message in a list is one"""
 
 
-def peak(data: bytes, kind: type[Message]) -> int:
-    """Return how much memory reading some bytes took at most: the least of three, as others' adds up."""
+def takes(data: bytes, kind: type[Message], at_most: float) -> bool:
+    """Say whether reading some bytes takes at most so much memory: once of three, as others' adds up."""
     read = cdr.decoder(kind)
-    return min(_traced_peak(read, data) for _ in range(3))
+    return any(_traced_peak(read, data) < at_most for _ in range(3))
 
 
 def _traced_peak(read: Callable[[bytes], object], data: bytes) -> int:
@@ -55,7 +55,7 @@ def test_a_length_that_lies_takes_no_memory_wherever_it_stands() -> None:
         for order, header in (("<", HEADER), (">", bytes(4))):
             for at in dice.sample(range(4, len(data), 4), min(12, len(range(4, len(data), 4)))):
                 lying = header + data[4:at] + struct.pack(f"{order}I", dice.choice(LIES)) + data[at + 4 :]
-                assert peak(lying, kind) < 20_000 + WORTH * len(lying), (kind.ros_type, at)
+                assert takes(lying, kind, 20_000 + WORTH * len(lying)), (kind.ros_type, at)
 
 
 @pytest.mark.usefixtures("_traced")
@@ -66,14 +66,14 @@ def test_what_is_long_takes_as_much_as_its_bytes_are_worth(item: str) -> None:
     kind = ros2msg.struct_of("a/msg/B", field + rest)
     for count in (2**10, 2**15, 2**20, 2**32 - 1):
         data = HEADER + struct.pack("<I", count) + bytes(2**17)
-        assert peak(data, kind) < WORTH * len(data)
+        assert takes(data, kind, WORTH * len(data))
 
 
 @pytest.mark.usefixtures("_traced")
 def test_a_fixed_array_that_the_bytes_cannot_fill_takes_no_memory() -> None:
     for item in ("float64", "uint8", "string", "Part"):
         kind = ros2msg.struct_of("a/msg/B", f"{item}[400000] x\n{'=' * 80}\nMSG: a/Part\nuint8 x\n")
-        assert peak(HEADER + bytes(1000), kind) < 120_000
+        assert takes(HEADER + bytes(1000), kind, 120_000)
 
 
 def test_every_message_that_is_cut_anywhere_is_refused() -> None:
@@ -101,9 +101,9 @@ def test_every_other_representation_is_named() -> None:
             cdr.decode(number.to_bytes(2, "big") + b"\0\0\1", Bool)
 
 
-@pytest.mark.parametrize("kind", ALL, ids=lambda kind: kind.ros_type)
-def test_it_is_named_even_where_the_bytes_are_too_few(kind: type[Message]) -> None:
-    for data in (b"", b"\0", b"\0\7\0\0", b"\0\x0b\0\0\0", b"\0\3\0\0" + bytes(3)):
+@pytest.mark.parametrize("data", [b"", b"\0", b"\0\7\0\0", b"\0\x0b\0\0\0", b"\0\3\0\0" + bytes(3)])
+def test_it_is_named_even_where_the_bytes_are_too_few(data: bytes) -> None:
+    for kind in ALL:
         with pytest.raises(MessageError, match="expected CDR, which begins with"):
             cdr.decode(data, kind)
 
