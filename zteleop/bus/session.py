@@ -48,6 +48,8 @@ class BusSettings(Struct, frozen=True, forbid_unknown_fields=True):
     """s a client waits for its router"""
     largest: Annotated[int, Meta(ge=65536, le=2**30)] = 2**28
     """bytes of a message; a longer one is dropped on its way in"""
+    stop_lane: bool = True
+    """stops are said and heard as datagrams too, for when zenoh is not"""
 
 
 def open_session(settings: BusSettings, *, settle: bool = False, door: bool = False) -> zenoh.Session:

@@ -67,11 +67,12 @@ class Subscription(Generic[M]):
                 yield received
 
     def newest(self) -> M | None:
-        """Return the last of what has arrived since the last call."""
-        message = None
-        for received in self.take():
-            message = received.message
-        return message
+        """Return the last message that has arrived since the last call, whatever has come after it."""
+        samples = []
+        while (sample := self.ring.try_recv()) is not None:
+            samples.append(sample)
+        received = (self.read(sample) for sample in reversed(samples))
+        return next((found.message for found in received if found), None)
 
     def read(self, sample: zenoh.Sample) -> Received[M] | None:
         """Return the message in a sample; None, counted and said, when it is none."""

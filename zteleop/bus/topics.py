@@ -34,18 +34,21 @@ class Topic(NamedTuple):
     """how many are kept for a slow reader; the newest win"""
 
 
+_NEWEST = 256
+"""of which a reader wants the last, 20 times a second: 5,000 a second that are none pass it by"""
+
 TOPICS = {
     topic.name: topic
     for topic in (
         Topic("cmd_vel", (TwistStamped, Twist), ("cmd_vel_stamped",), command=True, urgent=True, depth=100),
         Topic("pwm", (Pwm, Int16MultiArray), ("controls",), command=True, urgent=True, depth=100),
         Topic("stop", (Stop,), urgent=True, depth=100),
-        Topic("beat", (Beat,), urgent=True, depth=1),
+        Topic("beat", (Beat,), urgent=True, depth=_NEWEST),
         Topic("drive_status", (DriveStatus,), urgent=True),
-        Topic("vehicle", (Vehicle,), depth=1),
-        Topic("why", (Why,), depth=1),
-        Topic("refusals", (Refusals,), depth=1),
-        Topic("watchdog", (WatchdogStatus,), depth=1),
+        Topic("vehicle", (Vehicle,), depth=_NEWEST),
+        Topic("why", (Why,), depth=_NEWEST),
+        Topic("refusals", (Refusals,), depth=_NEWEST),
+        Topic("watchdog", (WatchdogStatus,), depth=_NEWEST),
         Topic("odom", (Odometry,)),
         Topic("log", (Log,), depth=100),
     )

@@ -2,12 +2,13 @@ import argparse
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 
 import msgspec
 
 from zteleop import config
 from zteleop.bus import presence
+from zteleop.bus.lane.ear import Ear
 from zteleop.bus.node import Node
 from zteleop.bus.session import ROBOT_ENDPOINT, BusSettings, open_session
 from zteleop.cli import options
@@ -93,7 +94,8 @@ def run(arguments: argparse.Namespace) -> int:
         child = Child(CHILD, orders, hand.shared())
         recorder = Recorder(RECORDER, orders, node.log.warn) if tuned.blackbox else None
         stop_file = StopFile(config.state_folder(robot) / "stop", node.log.error)
-        return Watchdog(node, tuned.drive, hand, child, stop_file, _switch(node, pin), recorder).run()
+        lane = stack.enter_context(closing(Ear(robot, bus, node.log.warn)))
+        return Watchdog(node, tuned.drive, hand, child, stop_file, _switch(node, pin), recorder, lane).run()
 
 
 @contextmanager

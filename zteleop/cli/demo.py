@@ -49,7 +49,7 @@ def run(arguments: argparse.Namespace) -> int:
         node = stack.enter_context(Node("keyboard", robot, bus))
         await_robot(node, children, Path(log.name))
         if sys.stdin.isatty() and sys.stdout.isatty():
-            drive_with_keys(node, Config(), arguments.drive)
+            drive_with_keys(node, Config(bus=bus), arguments.drive)
             return 0
         return drive_figure(node)
 

@@ -3,6 +3,7 @@ from collections import deque
 from collections.abc import Callable
 
 from zteleop.bus import clock
+from zteleop.bus.lane.call import Call
 from zteleop.bus.node import Node
 from zteleop.cli import options
 from zteleop.config import Config
@@ -42,8 +43,9 @@ def drive_with_keys(node: Node, settings: Config, drive: str | None = None) -> N
     drive = drive or ("step" if vehicle.kind == "ackermann" else "hold")
     node.log.show = lambda line: None  # nothing prints over the screen: it shows the log itself
     keyboard = Keyboard("step" if drive == "step" else "hold", speeds=settings.speeds, steps=settings.steps)
-    with keyboard:
-        Teleop(node, keyboard, "keyboard", vehicle, painter(keyboard, node.robot or "", settings.steps)).run()
+    paint = painter(keyboard, node.robot or "", settings.steps)
+    with keyboard, Call(settings.bus) as lane:
+        Teleop(node, keyboard, "keyboard", vehicle, paint, lane).run()
 
 
 def find_vehicle(node: Node, settings: Config) -> Vehicle:

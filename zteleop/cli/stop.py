@@ -1,15 +1,20 @@
 import argparse
 import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
 
 from zteleop import config
 from zteleop.bus import clock, presence
 from zteleop.bus.escape import printable
+from zteleop.bus.lane.call import Call
 from zteleop.bus.node import Node
 from zteleop.cli import options
 from zteleop.config import Config
 from zteleop.errors import BusError
 from zteleop.messages import DriveStatus
 from zteleop.nodes.stopping import PATIENCE, REPEAT, Stopping, person
+
+GLANCE = 0.01
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -25,36 +30,86 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     settings = options.load_anyhow(arguments)
     every = arguments.all and not arguments.release
-    with options.join_for_any("stop", settings, settle=every or settings.robot is None) as node:
-        if arguments.release:
+    settle = every or settings.robot is None
+    if arguments.release:
+        with options.join_for_any("stop", settings, settle=settle) as node:
             robot = options.find_robot(node.session, settings)
             print(printable(release(node, robot, arguments.all)))
             return 0
-        return stop(node, _robots(node, settings, every), arguments.why)
+    with Call(settings.bus) as lane:
+        stops = Stops(lane, arguments.why)
+        if settings.robot:
+            stops.engage([settings.robot])  # before anything else is set up: somebody waits for it
+        try:
+            joined = stops.join(settings, settle)
+        except BusError as error:
+            return stops.finish_alone(error)
+        with joined as node:
+            stops.engage(_robots(node, settings, every))
+            return stops.finish(node)
 
 
-def stop(node: Node, robots: list[str], why: str = "") -> int:
-    """Stop these robots, say what each answers, and return 1 when one has not acknowledged it."""
-    asked = [Stopping(node, person(), robot) for robot in robots]
-    for stopping in asked:
-        stopping.engage(clock.now(), why)  # before anything else is set up: somebody waits for it
-    for stopping in asked:
-        _listen(node, stopping)
+class Stops:
+    """Stops robots on the bus and on the lane beside it, and tells what each answers as it comes."""
 
-    told: list[Stopping] = []
+    def __init__(self, lane: Call, why: str) -> None:
+        self._lane, self._why = lane, why
+        self._asked: dict[str, Stopping] = {}
+        self._told: set[str] = set()
 
-    def is_over() -> bool:
-        """Go on saying it, tell each answer as it comes, and look whether there is more to say."""
-        for stopping in asked:
-            if stopping.heed(None, clock.now()) and stopping not in told:
-                told.append(stopping)
+    def engage(self, robots: list[str]) -> None:
+        """Begin to stop those that are not asked yet."""
+        for robot in robots:
+            if robot not in self._asked:
+                self._asked[robot] = Stopping(None, person(), robot, self._lane)
+                self._asked[robot].engage(clock.now(), self._why)
+
+    def join(self, settings: Config, settle: bool) -> Node:
+        """Join the bus, and say meanwhile on the lane what is asked for; raises BusError as that does."""
+        with ThreadPoolExecutor(1) as joining:
+            node = joining.submit(options.join_for_any, "stop", settings, settle)
+            while not node.done():
+                self.heed()
+                time.sleep(GLANCE)
+        return node.result()
+
+    def finish_alone(self, error: BusError) -> int:
+        """Finish without a bus; raises its error where one of them has not answered on the lane."""
+        while self._asked and not self.heed():
+            time.sleep(GLANCE)
+        if not self._asked or any(stopping.state != "done" for stopping in self._asked.values()):
+            raise error
+        print(printable(f"zteleop stop: warning: {error}; it went out as datagrams alone"), file=sys.stderr)
+        return 0
+
+    def finish(self, node: Node) -> int:
+        """Go on on both ways until each has answered; return 1 when one has not."""
+        for stopping in self._asked.values():
+            stopping.join(node)
+        self.heed()
+        for stopping in self._asked.values():
+            _listen(node, stopping)
+        node.until(self.heed, 2 * REPEAT)
+        unheard = [stopping for stopping in self._asked.values() if stopping.unheard]
+        for stopping in unheard:
+            if stopping.state == "done":
+                words = f"{stopping.robot} answered by datagram; on the bus it is not heard"
+                print(printable(words), file=sys.stderr)
+        if any(stopping.state != "done" for stopping in unheard):
+            print(printable(_who_is_here(node)), file=sys.stderr)  # only now: to find out may take time
+        return int(any(stopping.state != "done" for stopping in self._asked.values()))
+
+    def heed(self) -> bool:
+        """Go on saying it, tell each answer as it comes, and say whether all is said."""
+        now = clock.now()
+        for answer in self._lane.answers():
+            if asked := self._asked.get(answer.robot):
+                asked.hear_lane(answer, now)
+        for robot, stopping in self._asked.items():
+            if stopping.heed(None, now) and robot not in self._told:
+                self._told.add(robot)
                 _tell(stopping)
-        return len(told) == len(asked) and not any(stopping.repeats(clock.now()) for stopping in asked)
-
-    node.until(is_over, 2 * REPEAT)
-    if any(stopping.unheard for stopping in asked):  # only now: who is there may take time to find out
-        print(printable(_who_is_here(node)), file=sys.stderr)
-    return int(any(stopping.state != "done" for stopping in asked))
+        return len(self._told) == len(self._asked) and not any(s.repeats(now) for s in self._asked.values())
 
 
 def release(node: Node, robot: str, everybodys: bool = False) -> str:

@@ -9,7 +9,7 @@ from msgspec import Meta, Struct
 from zteleop.control.proof import NEVER, Proof
 
 SENDERS = 64
-"""How many senders are remembered; whoever is forgotten must let go once more."""
+"""How many senders are remembered; whoever is forgotten must let go once more. Never who drives."""
 
 
 class Deadlines(Struct, frozen=True, forbid_unknown_fields=True):
@@ -169,8 +169,14 @@ class Gate:
         self._senders[proof.sender] = after
         self._senders.move_to_end(proof.sender)
         if len(self._senders) > SENDERS:
-            self._forgotten = max(self._forgotten, self._senders.popitem(last=False)[1].at - self._grace)
+            self._forget_one(now)
         return after
+
+    def _forget_one(self, now: float) -> None:
+        """Forget who spoke longest ago, and has no right to go on: whoever drives is remembered."""
+        others = (s for s, seen in self._senders.items() if now - seen.counted > self._deadlines.link_loss)
+        gone = self._senders.pop(next(others, next(iter(self._senders))))
+        self._forgotten = max(self._forgotten, gone.at - self._grace)
 
     def _measure_loss(self, before: Seen, after: Seen, proof: Proof, silence: float) -> None:
         """Take the right from what was not heard, or did not count, for too long."""

@@ -175,7 +175,8 @@ class Actuator:
         self._notice_pause(now)
         before, self._step = self._step, self._drive.step(now)
         self._output.write(self._step.pulse_us, now)
-        self._link.report(Report(now, stand(self._drive, self._since)))
+        stopped = bool(self._drive.latch.stops)
+        self._link.report(Report(now, stand(self._drive, self._since), stopped))
         if self._step.state != before.state:
             self._node.log.info(f"{self._step.state}: {self._step.why}")
             self._journal.event("state", state=self._step.state, why=self._step.why)

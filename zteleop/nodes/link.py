@@ -11,7 +11,7 @@ from zteleop.control.standing import Standing
 from zteleop.errors import DeviceError
 from zteleop.messages import Stop
 
-_REPORT = Struct("<dQdddhqdd")
+_REPORT = Struct("<d?Qdddhqdd")
 _STOP_HEAD = Struct("<cH")
 _BYTES = 4096
 
@@ -32,6 +32,8 @@ class Report(NamedTuple):
 
     stepped: float
     standing: Standing
+    stopped: bool = False
+    """a stop is in force, and it rests for it"""
 
 
 class End:
@@ -79,7 +81,7 @@ class ActuatorEnd(End):
         self._rest = b""
 
     def report(self, report: Report) -> None:
-        self._send(_REPORT.pack(report.stepped, *report.standing))
+        self._send(_REPORT.pack(report.stepped, report.stopped, *report.standing))
 
     def read(self) -> Words:
         """Return what arrived; raises DeviceError when the watchdog is gone, or cannot be understood."""
@@ -127,8 +129,8 @@ class WatchdogEnd(End):
 
 
 def _report(data: bytes, start: int) -> Report:
-    stepped, *standing = _REPORT.unpack_from(data, start)
-    return Report(stepped, Standing(*standing))
+    stepped, stopped, *standing = _REPORT.unpack_from(data, start)
+    return Report(stepped, Standing(*standing), stopped)
 
 
 def _stop(text: bytes) -> Stop:

@@ -6,7 +6,7 @@ from zteleop.bus.topics import TOPICS
 from zteleop.control.command import to_command
 from zteleop.control.drive import DriveSettings
 from zteleop.control.judge import GRACE, Judge
-from zteleop.control.stop import Latch
+from zteleop.control.stop import MERGED, Latch
 from zteleop.errors import MessageError
 from zteleop.messages import Beat, Stop
 from zteleop.nodes.stop_file import UNREADABLE, StopFile
@@ -64,6 +64,21 @@ class Overhearing:
     def stops(self) -> tuple[Stop, ...]:
         """The stops in force, as far as they were heard."""
         return self._latch.stops
+
+    def hear_stop(self, stop: Stop, now: float) -> bool:
+        """Learn of a stop that came without zenoh, and that the actuator must keep; True when it is news."""
+        is_news = self._latch.obey(stop)
+        if is_news:
+            self._asked[stop.id] = now
+        return is_news
+
+    def holds(self, stop: Stop) -> bool:
+        """Say whether a stop is in force, by itself or by what has taken its place."""
+        return any(kept.id in (stop.id, MERGED.id) or kept.by == stop.by for kept in self._latch.stops)
+
+    def keeps(self, stop: Stop) -> bool:
+        """Say whether a file holds it, or what has taken its place, so that it outlives a restart."""
+        return not self._kept.isdisjoint((stop.id, MERGED.id, UNREADABLE))
 
     def engage(self, stop: Stop) -> None:
         """Learn of a stop that the watchdog itself engages."""

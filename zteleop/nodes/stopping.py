@@ -6,11 +6,14 @@ import socket
 from collections.abc import Sequence
 from typing import Literal
 
+from zteleop.bus.lane.call import Call
+from zteleop.bus.lane.wire import Answered
 from zteleop.bus.node import Node
+from zteleop.bus.publisher import Publisher
 from zteleop.control.evidence import STANDS
 from zteleop.control.hold import HOLDS
 from zteleop.control.stop import MERGED, is_persons, whose
-from zteleop.messages import DriveStatus, Stop
+from zteleop.messages import Confirmed, DriveStatus, Stop
 
 EVERY, PATIENCE = 0.05, 2.0
 REPEAT = 3.0
@@ -26,10 +29,12 @@ _LONGEST = 200
 class Stopping:
     """One stop or one release at a time, said 20 times a second until `drive_status` shows it."""
 
-    def __init__(self, node: Node, by: str, robot: str = "") -> None:
-        self.robot, self._by = robot or node.robot or "", _sayable(by)
-        self._publisher = node.publisher(f"/{robot}/stop" if robot else "stop", Stop)
+    def __init__(self, node: Node | None, by: str, robot: str = "", lane: Call | None = None) -> None:
+        self.robot, self._by, self._lane = robot, _sayable(by), lane
+        self._publisher: Publisher[Stop] | None = None
         self._matched = False
+        if node:
+            self.join(node)
         self._asked: list[Stop] = []
         self._since = self._due = NEVER
         self._before: frozenset[int] | None = None
@@ -37,12 +42,20 @@ class Stopping:
         self._seen: DriveStatus | None = None
         self._since_then: DriveStatus | None = None
         self._heard = NEVER
-        """When a status first showed the stop asked for."""
+        """When the robot first said that it has heard the stop asked for."""
+        self._shown = False
+        """A status has shown it."""
         self._is_over = False
         """The stop asked for was acknowledged, and is no longer in force."""
         self.state: Literal["", "pending", "done", "failed"] = ""
         self.words = ""
         self.ended = NEVER
+
+    def join(self, node: Node) -> None:
+        """Say on the bus as well what has only been said on the lane so far."""
+        self._publisher = node.publisher(f"/{self.robot}/stop" if self.robot else "stop", Stop)
+        self.robot = self.robot or node.robot or ""
+        self._due = NEVER
 
     @property
     def unanswered(self) -> bool:
@@ -85,7 +98,7 @@ class Stopping:
         self._seen, self._since_then = status or self._seen, status or self._since_then
         if status and self._before is None:  # where none was seen at the press, the first may be older
             self._before = _ids(status.stops)
-        if status and self._engages and self._heard > NEVER:
+        if status and self._engages and self._shown:
             self._is_over |= not self._shows(status)
         if self.state == "pending":
             self._go_on(status, now)
@@ -94,6 +107,18 @@ class Stopping:
         if (self.state == "pending" or self.repeats(now)) and self._is_due(now):
             self._say(now)
         return self.state != "pending"
+
+    def hear_lane(self, answer: Answered, now: float) -> None:
+        """Take in what the robot answers without zenoh; whichever answer comes first is believed."""
+        mine = self._engages and answer.robot == self.robot and answer.id == self._asked[0].id
+        if not (mine and answer.held and (self.state == "pending" or self.unanswered)):
+            return
+        self._heard = now if self._heard == NEVER else self._heard
+        settled = now - self._heard >= SETTLED
+        if answer.confirmed and (settled or not answer.unkept):
+            self._end("done", self._stands(answer.confirmed, answer.unkept, now), now)
+        elif settled and not self._shown:
+            self._fail_unseen(f" ({answer.trouble})" if answer.trouble else "", now)
 
     @property
     def _engages(self) -> bool:
@@ -115,17 +140,24 @@ class Stopping:
     def _ask(self, said: list[Stop], now: float) -> None:
         self._before = _ids(self._seen.stops) if self._seen else None
         self.state, self._asked, self._since = "pending", said, now
-        self._since_then, self._heard, self._is_over = None, NEVER, False
+        self._since_then, self._heard, self._shown, self._is_over = None, NEVER, False, False
         self._say(now)
+
+    @property
+    def _is_matched(self) -> bool:
+        return self._publisher is not None and self._publisher.matched
 
     def _is_due(self, now: float) -> bool:
         """At the first listener at once: what was said before went nowhere."""
-        return now >= self._due or (self._publisher.matched and not self._matched)
+        return now >= self._due or (self._is_matched and not self._matched)
 
     def _say(self, now: float) -> None:
-        self._matched, self._due = self._publisher.matched, now + EVERY
+        self._matched, self._due = self._is_matched, now + EVERY
         for said in self._asked:
-            self._publisher.publish(said)
+            if self._lane:
+                self._lane.say(self.robot, said)
+            if self._publisher:
+                self._publisher.publish(said)
 
     def _go_on(self, status: DriveStatus | None, now: float) -> None:
         if status and self._engages and self._shows(status):
@@ -137,13 +169,18 @@ class Stopping:
 
     def _hear(self, status: DriveStatus, now: float) -> None:
         """Say that it is stopped, once the chip shows it and the disk has it, or that they do not."""
-        self._heard = now if self._heard == NEVER else self._heard
+        self._heard, self._shown = now if self._heard == NEVER else self._heard, True
         settled = now - self._heard >= SETTLED
         if status.confirmed and (settled or not status.unkept):
-            seen = f"{STANDS[status.confirmed]}{', late' if self.unanswered else f' {self._within(now)}'}"
-            self._end("done", f"{self.robot} is stopped ({seen}){_unkept(status)}", now)
+            self._end("done", self._stands(status.confirmed, status.unkept, now), now)
         elif settled:
             self._fail_unseen(f" ({status.why})" if status.state == "fault" else "", now)
+
+    def _stands(self, confirmed: Confirmed, unkept: str, now: float) -> str:
+        """Say how the robot is known to stand, and what whoever presses must know of its disk."""
+        seen = f"{STANDS[confirmed]}{', late' if self.unanswered else f' {self._within(now)}'}"
+        kept = f", but only until it restarts: {unkept}" if unkept else ""
+        return f"{self.robot} is stopped ({seen}){kept}"
 
     def _fail_unseen(self, cause: str, now: float) -> None:
         words = f"{self.robot} heard the stop, {STANDS['']}{cause}"
@@ -204,11 +241,6 @@ def person() -> str:
 
 def _ids(stops: Sequence[Stop]) -> frozenset[int]:
     return frozenset(stop.id for stop in stops)
-
-
-def _unkept(status: DriveStatus) -> str:
-    """Return what whoever presses must know of the disk."""
-    return f", but only until it restarts: {status.unkept}" if status.unkept else ""
 
 
 def _sayable(text: str) -> str:

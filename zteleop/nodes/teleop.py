@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from zteleop.bus import clock
+from zteleop.bus.lane.call import Call
 from zteleop.bus.node import Node
 from zteleop.control.hold import HOLDS
 from zteleop.control.stick import Stick, neutral_pwm, to_pwm, to_twist
@@ -52,7 +53,13 @@ class Teleop:
     """One operator, one device, one robot. An idle device says neutral three times, then nothing."""
 
     def __init__(
-        self, node: Node, device: Input, source: str, vehicle: Vehicle, show: Callable[[View], None]
+        self,
+        node: Node,
+        device: Input,
+        source: str,
+        vehicle: Vehicle,
+        show: Callable[[View], None],
+        lane: Call | None = None,
     ) -> None:
         self._node, self._device, self._vehicle, self._show = node, device, vehicle, show
         self._heard = node.heard()
@@ -61,7 +68,8 @@ class Teleop:
         self._statuses = node.subscription("drive_status", DriveStatus)
         self._odoms = node.subscription("odom", Odometry)
         self._logs = node.subscription("log", Log)
-        self._stopping = Stopping(node, person())
+        self._lane = lane
+        self._stopping = Stopping(node, person(), lane=lane)
         self._status: DriveStatus | None = None
         self._status_at = float("-inf")
         self._at_rest = False
@@ -157,6 +165,8 @@ class Teleop:
         elif now - self._status_at > LINK_LOSS:
             self._status = None
         self._stopping.heed(status, now)
+        for answer in self._lane.answers() if self._lane else ():
+            self._stopping.hear_lane(answer, now)
         at_rest = self._status is not None and self._status.state in HOLDS
         if at_rest != self._at_rest:
             self._at_rest = at_rest

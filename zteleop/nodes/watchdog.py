@@ -8,13 +8,15 @@ from contextlib import suppress
 from types import FrameType
 
 from zteleop.bus import clock, signals
+from zteleop.bus.lane.ear import Ear, Heard
+from zteleop.bus.lane.wire import Answered
 from zteleop.bus.node import Node
 from zteleop.control.drive import DriveSettings
 from zteleop.control.judge import GRACE, Judge
 from zteleop.control.standing import Standing
 from zteleop.drivers import PulseDriver
 from zteleop.errors import DeviceError
-from zteleop.messages import Stop, WatchdogStatus
+from zteleop.messages import Confirmed, Stop, WatchdogStatus
 from zteleop.nodes import service
 from zteleop.nodes.child import Child
 from zteleop.nodes.link import CUT, DEAF, HEARS, UNWATCHED
@@ -40,6 +42,8 @@ PER_LOOK, AT_MOST = 2, 1.0
 """times what a look took, and s, that the actuator may be silent in addition: it waits for the same bus"""
 YIELD = 5
 """times as long as a look took, until the next one"""
+_LONGEST = 200
+"""characters of a reason in an answer"""
 FAREWELL = 0.25
 REST_PATIENCE = 2.0
 
@@ -56,9 +60,10 @@ class Watchdog:
         stop_file: StopFile,
         enable: Callable[[bool], bool] = lambda on: False,
         recorder: Recorder | None = None,
+        lane: Ear | None = None,
     ) -> None:
         self._node, self._hand, self._child, self._stop_file = node, hand, child, stop_file
-        self._recorder = recorder
+        self._recorder, self._lane = recorder, lane
         self._enable = enable
         """Lets the chip's outputs through, or cuts them; says whether a pin did."""
         self._is_cut, self._pin_cuts = True, False
@@ -75,6 +80,10 @@ class Watchdog:
         self._blind = 0
         """How many looks in a row have failed"""
         self._at_rest = False
+        self._trouble = ""
+        """Why the chip cannot be read."""
+        self._obeyed: float | None = None
+        """Since when the actuator rests for a stop."""
         self._why = "the actuator starts"
         self._exit_code: int | None = None
 
@@ -102,6 +111,7 @@ class Watchdog:
     def _start(self) -> None:
         self._restart_at = None
         self._ears.forget_beats()
+        self._obeyed = None
         self._child.start(clock.now(), self._standing)
         assert self._child.link
         self._node.watch(self._child.link.fileno(), self._hear_actuator)
@@ -116,6 +126,7 @@ class Watchdog:
             return
         if report := self._child.newest:
             self._judge.hear_report(report.standing)
+            self._obeyed = (self._obeyed or clock.now()) if report.stopped else None
             if not was_ready:
                 self._greet()
 
@@ -134,6 +145,8 @@ class Watchdog:
         if now - self._ticked > LATE and now - self._woke > FORGIVE_EVERY:
             self._woke = now
         self._ticked = now
+        for heard in self._lane.take(now) if self._lane else ():
+            self._obey(heard, now)
         if ignored := self._ears.listen(now):
             self._engage(ignored)
         if self._restart_at is not None:
@@ -174,13 +187,14 @@ class Watchdog:
         try:
             why = self._judge.look(self._hand.read(self._judge.neutral_us), clock.now())
         except DeviceError as error:
+            self._trouble = str(error)
             self._node.log.warn(f"cannot read the chip: {error}", "read")
             self._miss()
             return
         finally:  # on a slow bus whoever writes comes first
             self._look_took = clock.now() - began
             self._look_after = began + YIELD * self._look_took
-        self._seen, self._blind = clock.now(), 0
+        self._seen, self._blind, self._trouble = clock.now(), 0, ""
         if why and not self._judge.stopped:
             self._engage(Stop(engaged=True, id=secrets.randbits(53), by="the watchdog", why=why))
         elif why:
@@ -202,6 +216,30 @@ class Watchdog:
         self._tell_stop(stop)
         self._rest()
         self._stop_file.add(stop)  # a disk may take its time
+
+    def _obey(self, heard: Heard, now: float) -> None:
+        """Engage a stop that came without zenoh, and answer how the robot stands."""
+        stop = heard.asked.stop
+        if self._ears.hear_stop(stop, now):
+            if not self._never_stepped:
+                with suppress(DeviceError):  # the actuator, or the next look, sees to it that it stays there
+                    self._hand.write(self._judge.neutral_us)
+            self._tell_stop(stop)
+            if not self._child.link:  # nobody else keeps it
+                self._stop_file.add(stop)
+        holds = self._ears.holds(stop)
+        confirmed = self._confirmed() if holds else ""
+        unkept = "" if self._ears.keeps(stop) else self._stop_file.unkept or "it is being written"
+        trouble = self._trouble[:_LONGEST]
+        heard.answer(Answered(heard.asked.robot, stop.id, holds, confirmed, unkept[-_LONGEST:], trouble))
+
+    def _confirmed(self) -> Confirmed:
+        """Say how a robot with a stop in force is known to stand: by a look since its actuator obeyed."""
+        if self._pin_cuts:
+            return "cut"
+        if self._restart_at is not None:
+            return "read" if self._at_rest else ""
+        return "read" if self._obeyed and self._seen > self._obeyed and not self._judge.moving else ""
 
     def _tell_stop(self, stop: Stop) -> None:
         if self._child.link:

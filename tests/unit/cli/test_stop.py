@@ -8,6 +8,7 @@ from unit.nodes.fakes import Inbox, Node, Said
 
 from zteleop import config
 from zteleop.bus import presence
+from zteleop.bus.lane.wire import Answered
 from zteleop.cli import options
 from zteleop.cli import stop as verb
 from zteleop.cli.run import run_verb
@@ -62,6 +63,35 @@ class Robot(Node):
         pass
 
 
+class Lane:
+    """The lane without a network: what was said on it, and what comes back."""
+
+    def __init__(self, settings: object = None) -> None:
+        self.said: list[tuple[str, Stop]] = []
+        self.waiting: list[Answered] = []
+
+    def __enter__(self) -> "Lane":
+        return self
+
+    def __exit__(self, *exc: object) -> None:
+        pass
+
+    def say(self, robot: str, stop: Stop) -> None:
+        self.said.append((robot, stop))
+
+    def answers(self) -> list[Answered]:
+        answers, self.waiting = self.waiting, []
+        return answers
+
+
+class Stopped(Lane):
+    """A robot that answers on the lane, and on nothing else."""
+
+    def say(self, robot: str, stop: Stop) -> None:
+        super().say(robot, stop)
+        self.waiting.append(Answered(robot, stop.id, held=True, confirmed="read"))
+
+
 Type = Callable[..., tuple[int, str, str]]
 
 
@@ -82,6 +112,7 @@ def typed(
 ) -> Type:
     """Type `zteleop stop` beside a robot, or beside none."""
     monkeypatch.setattr(verb, "person", lambda: "ann@desk")
+    monkeypatch.setattr(verb, "Call", Lane)
     monkeypatch.setattr(config, "own_name", lambda: "archangel")
 
     def type_(latch: Latch | None, *arguments: str) -> tuple[int, str, str]:
@@ -155,7 +186,7 @@ def test_of_several_robots_that_nobody_named_all_are_stopped_where_nobody_can_an
 ) -> None:
     heard += ["archangel", "michael"]
     asked: list[list[str]] = []
-    monkeypatch.setattr(verb, "stop", lambda node, robots, why: asked.append(robots) or 0)
+    monkeypatch.setattr(verb.Stops, "finish", lambda stops, node: asked.append(sorted(stops._asked)) or 0)
     assert typed(None, *words)[0] == 0
     assert asked == [meant]
 
@@ -193,10 +224,11 @@ def test_a_release_of_a_robot_that_is_not_heard_is_an_error(typed: Type) -> None
 
 
 def test_the_first_word_leaves_before_anything_is_waited_for(clock: Clock) -> None:
-    node = Robot(clock, None)
+    node, lane = Robot(clock, None), Lane()
     order: list[str] = []
+    lane.say = lambda robot, said: order.append(f"lane {robot}")
     node.publisher = lambda topic, types: SimpleNamespace(
-        matched=False, publish=lambda said: order.append("said")
+        matched=False, publish=lambda said: order.append(f"said {topic}")
     )
     node.subscription = lambda *arguments: order.append("subscribed")
 
@@ -205,9 +237,49 @@ def test_the_first_word_leaves_before_anything_is_waited_for(clock: Clock) -> No
         raise BusError("enough")
 
     node.until = until
+    stops = verb.Stops(lane, "")
+    stops.engage(["a", "b"])
+    assert order == ["lane a", "lane b"]
     with pytest.raises(BusError, match="enough"):
-        verb.stop(node, ["archangel", "michael"])
-    assert order == ["said", "said", "subscribed", "subscribed", "waited"]
+        stops.finish(node)
+    said = ["lane a", "said /a/stop", "lane b", "said /b/stop"]
+    assert order[2:] == [*said, "subscribed", "subscribed", "waited"]
+
+
+def test_a_robot_that_answers_without_the_bus_is_stopped_and_that_is_said(
+    typed: Type, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(verb, "Call", Stopped)
+    code, out, error = typed(None, "archangel")
+    assert (code, error) == (0, "archangel answered by datagram; on the bus it is not heard\n")
+    assert out.startswith("archangel is stopped (neutral read back from the chip within ")
+
+
+@pytest.mark.parametrize(
+    ("lane", "code", "words"),
+    [
+        (Stopped, 0, "zteleop stop: warning: no router found; it went out as datagrams alone\n"),
+        (Lane, 1, "or run zteleop neutral on it\nzteleop stop: no router found\n"),
+    ],
+)
+def test_without_a_bus_a_stop_goes_out_all_the_same(
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    clock: Clock,
+    lane: type[Lane],
+    code: int,
+    words: str,
+) -> None:
+    def fail(name: str, settings: object, settle: bool) -> None:
+        raise BusError("no router found")
+
+    monkeypatch.setattr(verb, "Call", lane)
+    monkeypatch.setattr(verb.time, "sleep", clock.pass_by)
+    monkeypatch.setattr(options, "join_for_any", fail)
+    assert run_verb("stop", "stop a robot", ["archangel"]) == code
+    out, error = capsys.readouterr()
+    assert error.endswith(words)
+    assert ("archangel is stopped" in out) is (code == 0)
 
 
 def test_what_a_stranger_says_cannot_steer_the_terminal(

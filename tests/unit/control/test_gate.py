@@ -131,6 +131,28 @@ def test_memory_is_bounded_and_the_forgotten_must_let_go(gate: Gate) -> None:
     assert gate.judge(proof(101.2, seq=10, began=101.0), True, 101.2) is Refusal.NOT_FROM_NEUTRAL
 
 
+def test_whoever_drives_is_not_forgotten_for_strangers_who_never_did(gate: Gate) -> None:
+    driver = proof(101.0)
+    assert gate.judge(driver, True, 101.0) is None
+    gate.count(driver, 101.0)
+    for sender in range(2, 5 * SENDERS):
+        now = 101.0 + sender / 4000
+        assert gate.judge(proof(now, sender=sender), False, now) is None
+    assert len(gate._senders) == SENDERS
+    assert gate.judge(proof(101.2, seq=10, began=101.0), True, 101.2) is None
+
+
+def test_whoever_drove_long_ago_is_forgotten_like_anybody(gate: Gate) -> None:
+    for sender in range(1, SENDERS + 1):
+        drove = proof(101.0, sender=sender)
+        assert gate.judge(drove, True, 101.0) is None
+        gate.count(drove, 101.0)
+    late = proof(110.0, sender=SENDERS + 1)
+    assert gate.judge(late, True, 110.0) is None
+    assert gate.judge(late._replace(seq=2, beat=110.05), True, 110.05) is None
+    assert 1 not in gate._senders
+
+
 def test_however_many_come_and_go_whoever_is_remembered_drives_on(gate: Gate) -> None:
     assert gate.judge(proof(101.0), True, 101.0) is None
     for sender in range(2, 3 * SENDERS):

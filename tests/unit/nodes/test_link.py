@@ -23,7 +23,7 @@ def report(number: int) -> Report:
 
 def packed(number: int) -> bytes:
     said = report(number)
-    return link._REPORT.pack(said.stepped, *said.standing)
+    return link._REPORT.pack(said.stepped, said.stopped, *said.standing)
 
 
 class Ends:

@@ -3,6 +3,7 @@ import getpass
 import pytest
 from unit.nodes.fakes import Node, Said
 
+from zteleop.bus.lane.wire import Answered
 from zteleop.control.stop import MERGED, Latch
 from zteleop.messages import Confirmed, DriveStatus, Stop
 from zteleop.nodes.stopping import EVERY, PATIENCE, REPEAT, SETTLED, Stopping, person
@@ -108,6 +109,74 @@ def test_a_stop_that_the_disk_does_not_take_is_told_to_who_presses(asker: Asker)
     asker.wait(SETTLED, shows("stopped", ours, unkept=full))
     assert asker.stopping.state == "done"
     assert asker.stopping.words.endswith(f", but only until it restarts: {full}")
+
+
+class Lane:
+    """What was said as datagrams."""
+
+    def __init__(self) -> None:
+        self.said: list[tuple[str, Stop]] = []
+
+    def say(self, robot: str, stop: Stop) -> None:
+        self.said.append((robot, stop))
+
+
+def answer(stop: Stop, confirmed: Confirmed = "read", **others: object) -> Answered:
+    return Answered(**({"robot": "archangel", "id": stop.id, "held": True, "confirmed": confirmed} | others))
+
+
+def test_a_stop_is_said_on_the_lane_before_there_is_a_bus_and_on_both_afterwards(node: Node) -> None:
+    lane = Lane()
+    stopping = Stopping(None, "ann@desk", "archangel", lane)
+    stopping.engage(100.0)
+    stopping.heed(None, 100.0 + EVERY)
+    assert [robot for robot, _ in lane.said] == ["archangel"] * 2
+    stopping.join(node)
+    stopping.heed(None, 100.0 + EVERY)
+    assert node.said["/archangel/stop"].messages == [lane.said[0][1]]
+    assert len(lane.said) == 3
+
+
+def test_whichever_answer_comes_first_is_believed(asker: Asker) -> None:
+    stop = asker.engage()
+    asker.now += TICK
+    asker.stopping.hear_lane(answer(stop), asker.now)
+    assert asker.outcome == ("done", "archangel is stopped (neutral read back from the chip within 10 ms)")
+    asker.wait(1.0, idle())  # a status from before
+    assert asker.stopping.repeats(asker.now)
+    assert asker.stopping.state == "done"
+
+
+@pytest.mark.parametrize("others", [{"robot": "michael"}, {"id": 7}, {"held": False}])
+def test_what_answers_something_else_is_no_answer(asker: Asker, others: dict[str, object]) -> None:
+    stop = asker.engage()
+    asker.stopping.hear_lane(answer(stop, **others), asker.now)
+    assert asker.stopping.state == "pending"
+
+
+def test_an_answer_without_the_chips_word_is_a_failure_after_a_while_and_may_still_come_true(
+    asker: Asker,
+) -> None:
+    stop = asker.engage()
+    asker.stopping.hear_lane(answer(stop, ""), asker.now)
+    assert asker.stopping.state == "pending"
+    asker.now += SETTLED
+    asker.stopping.hear_lane(answer(stop, "", trouble="nobody answers"), asker.now)
+    assert asker.outcome == (
+        "failed",
+        "archangel heard the stop, not confirmed by the chip: cut its power (nobody answers)",
+    )
+    asker.stopping.hear_lane(answer(stop, "cut"), asker.now)
+    assert asker.outcome == ("done", "archangel is stopped (its outputs are cut, late)")
+
+
+def test_a_disk_has_a_moment_to_take_what_was_said_as_a_datagram(asker: Asker) -> None:
+    stop = asker.engage()
+    asker.stopping.hear_lane(answer(stop, unkept="it is being written"), asker.now)
+    assert asker.stopping.state == "pending"
+    asker.now += SETTLED
+    asker.stopping.hear_lane(answer(stop, unkept="the disk is full"), asker.now)
+    assert asker.stopping.words.endswith(", but only until it restarts: the disk is full")
 
 
 def test_a_lost_acknowledgement_is_asked_for_again(asker: Asker) -> None:

@@ -7,6 +7,7 @@ import pytest
 from unit.bus.fakes import Clock
 from unit.nodes.fakes import Chip, Node, Shelf
 
+from zteleop.bus.lane.wire import Answered, Asked
 from zteleop.bus.subscription import Received
 from zteleop.control.drive import DriveSettings
 from zteleop.control.judge import GRACE
@@ -66,6 +67,8 @@ class Child:
         """It does not end when it is asked to."""
         self.beats = True
         """Its beats arrive on the bus."""
+        self.obeys = True
+        """It rests for a stop that it was told of."""
         self.standing = Standing(EPOCH, 999.0, 999.0, 999.0)
         self.followed: list[Standing | None] = []
         """In whose place each of them was started."""
@@ -91,7 +94,7 @@ class Child:
         if self.dead:
             raise EOFError
         if not self.frozen:
-            self.newest = Report(self.clock.time, self.standing)
+            self.newest = Report(self.clock.time, self.standing, self.obeys and bool(self.stops))
 
     def silence(self, now: float) -> float:
         return now - (self.newest.stepped if self.newest else self.started)
@@ -109,6 +112,22 @@ class Child:
         return PAUSE
 
 
+class Lane:
+    """Datagrams that ask for a stop, and what was answered."""
+
+    def __init__(self) -> None:
+        self.waiting: list[SimpleNamespace] = []
+        self.answers: list[Answered] = []
+
+    def ask(self, stop: Stop) -> None:
+        asked = Asked("archangel", stop.id, stop.by, stop.why)
+        self.waiting.append(SimpleNamespace(asked=asked, answer=self.answers.append))
+
+    def take(self, now: float) -> list[SimpleNamespace]:
+        taken, self.waiting = self.waiting, []
+        return taken
+
+
 class Kennel:
     """A watchdog, what it watches, and the time."""
 
@@ -119,7 +138,10 @@ class Kennel:
         self.child = Child(clock, self.hand)
         self.enabled: list[bool] = []
         self.has_pin = True
-        self.dog = Watchdog(node, DriveSettings(), self.hand, self.child, self.shelf, self.enable)
+        self.lane = Lane()
+        self.dog = Watchdog(
+            node, DriveSettings(), self.hand, self.child, self.shelf, self.enable, lane=self.lane
+        )
         self.prover = Prover(7)
 
     def enable(self, on: bool) -> bool:
@@ -771,3 +793,72 @@ def test_beats_of_the_one_that_is_gone_are_not_the_next_ones(awake: Kennel) -> N
     awake.child.words.clear()
     awake.live(0.2)
     assert set(awake.child.words) == {DEAF}
+
+
+PRESSED = Stop(True, 7, "ann@desk", "a cat")
+
+
+def ask(kennel: Kennel, stop: Stop = PRESSED) -> Answered:
+    """Say a stop as a datagram, and return what is answered at the next tick."""
+    kennel.lane.ask(stop)
+    kennel.live(PERIOD)
+    return kennel.lane.answers[-1]
+
+
+def test_a_stop_by_datagram_brings_neutral_at_once_and_the_actuator_is_told(awake: Kennel) -> None:
+    awake.hand.pulses = dict(MOVING)
+    ask(awake)
+    assert awake.hand.log[0] == "write"
+    assert awake.hand.pulses == NEUTRAL
+    assert awake.child.stops == [PRESSED]
+
+
+def test_it_is_confirmed_by_a_look_since_the_actuator_obeyed(awake: Kennel) -> None:
+    awake.child.obeys = False
+    answers = [ask(awake) for _ in range(5)]
+    assert {(answer.held, answer.confirmed) for answer in answers} == {(True, "")}
+    awake.child.obeys = True
+    awake.until(lambda: ask(awake).confirmed == "read", 2 * LOOK_EVERY + 2 * PERIOD)
+
+
+def test_it_is_not_confirmed_while_the_chip_moves(awake: Kennel) -> None:
+    awake.has_pin = False
+    turn_deaf(awake.hand)
+    answers = [ask(awake) for _ in range(10)]
+    assert {answer.confirmed for answer in answers} == {""}
+
+
+def test_one_that_moves_on_although_it_was_stopped_by_datagram_is_killed(awake: Kennel) -> None:
+    awake.child.moves = True
+    ask(awake)
+    assert awake.until(lambda: awake.resting) < GRACE + LOOKS * LOOK_EVERY + 2 * PERIOD
+    awake.child.moves = False
+    assert ask(awake).confirmed == "read"
+
+
+def test_it_is_told_to_the_actuator_once_and_answered_each_time(awake: Kennel) -> None:
+    assert [ask(awake).id for _ in range(5)] == [7] * 5
+    assert len(awake.child.stops) == 1
+
+
+def test_after_its_release_the_same_stop_is_no_longer_held(awake: Kennel) -> None:
+    ask(awake)
+    awake.hear("stop", Stop(False, 7, "ann@desk", ""))
+    awake.live(PERIOD)
+    assert not ask(awake).held
+    assert len(awake.child.stops) == 1
+
+
+def test_without_an_actuator_it_is_kept_and_the_next_one_told(awake: Kennel) -> None:
+    awake.child.dead = True
+    awake.until(lambda: awake.resting)
+    answer = ask(awake)
+    assert (answer.confirmed, awake.shelf.stops) == ("read", [PRESSED])
+    awake.until(lambda: awake.restarted and PRESSED in awake.child.stops)
+
+
+def test_a_stop_that_no_disk_has_yet_is_answered_so(awake: Kennel) -> None:
+    assert ask(awake).unkept == "it is being written"
+    awake.shelf.stops.append(PRESSED)
+    awake.live(PERIOD)
+    assert ask(awake).unkept == ""
