@@ -123,7 +123,7 @@ def test_an_actuator_that_starts_again_under_a_stream_waits_until_it_lets_go(
             actuator.signal(signal.SIGKILL)
             actuator.ends()
             again = rig.actuator()
-            again.says("keyboard is refused: it was moving before")
+            again.says(" is refused: it was moving before")
             for _ in every(0.005, 100):
                 assert rig.ticks == NEUTRAL
         publisher.publish(Pwm(*NEUTRAL))

@@ -95,7 +95,7 @@ def test_priorities_changed_by_a_restart_wait_for_whoever_begins_anew(
             robot.ends()
             with (rig.folder / "config.toml").open("a") as config:
                 config.write("[drive.sources.keyboard]\npriority = 10\n")
-            rig.actuator().says("keyboard is refused: it was moving before")
+            rig.actuator().says(" is refused: it was moving before")
             for _ in every(0.005, 100):
                 assert rig.ticks == NEUTRAL
         for who in (keyboard, program):

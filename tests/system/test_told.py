@@ -1,5 +1,6 @@
 """Whoever is refused is told at the own end, and what a program does about it on purpose."""
 
+import re
 import signal
 
 from rig import NEUTRAL, Process, Rig, Watch, every, hear, until
@@ -96,7 +97,7 @@ def test_who_typed_resume_drives_on_after_a_restart_and_not_after_a_stop(rig: Ri
         until(lambda: shell.text.count(REFUSED) >= 2, "a second refusal")
         for _ in every(0.1, 20):
             pass
-        restart(rig, again).says("program is refused")
+        restart(rig, again).says(" is refused: ")
         for _ in every(0.1, 20):
             pass
     assert watch.seen == {NEUTRAL}
@@ -116,7 +117,7 @@ def test_a_stop_that_came_and_went_while_the_link_was_cut_needs_a_person(rig: Ri
         again = restart(rig, actuator)
         with Watch(rig) as watch:
             cable.mend()
-            again.says("program is refused")
+            again.says(" is refused: ")
             shell.says("cmd_vel is refused")
             for _ in every(0.1, 20):
                 pass
@@ -133,7 +134,8 @@ def test_the_second_of_two_keyboards_shows_why_it_does_not_drive(rig: Rig) -> No
     first.shows("driving, you operate")
     second.type("d")
     second.shows("another sender drives this source")
-    assert "another sender" not in first.screen
+    first.shows("driving, you operate", " is refused: another sender drives")
+    refused = re.search(r"keyboard \w{4} is refused", first.screen)
     first.type("x")
     until(lambda: rig.ticks == NEUTRAL, "neutral")
     second.type("x")
@@ -141,3 +143,8 @@ def test_the_second_of_two_keyboards_shows_why_it_does_not_drive(rig: Rig) -> No
     second.type("d")
     second.shows("driving, you operate")
     second.shows("outputting:[Steering PWM, Throttle PWM] = [360, 370]")
+    first.shows("driving, keyboard")
+    drives_now = re.search(r"keyboard \w{4} operates", first.screen)
+    assert refused, first.screen
+    assert drives_now, first.screen
+    assert refused[0].split()[:2] == drives_now[0].split()[:2], "one name for one sender"

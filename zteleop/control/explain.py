@@ -7,6 +7,7 @@ from zteleop.control.cap import Bound
 from zteleop.control.drive import Drive, Step
 from zteleop.control.evidence import STANDS, Evidence
 from zteleop.control.mux import Claim
+from zteleop.control.proof import called
 from zteleop.messages import Layer, Pwm, Twist
 
 RECENT = 10.0
@@ -154,7 +155,7 @@ def _asked(claim: Claim) -> str:
 
 
 def _sender(claim: Claim) -> str:
-    return f"{claim.source} {claim.sender & 0xFFFF:04x}"
+    return called(claim.source, f"{claim.sender:x}")
 
 
 def _twist(twist: Twist) -> str:

@@ -29,6 +29,11 @@ class Proof(NamedTuple):
     """the newest heard when this claim left neutral"""
 
 
+def called(source: str, sender: str) -> str:
+    """Return what people call one sender of a source everywhere; `sender` is in hexadecimal digits."""
+    return f"{source} {sender[-4:].zfill(4)}"
+
+
 class Prover:
     """Makes the proofs of one sender."""
 

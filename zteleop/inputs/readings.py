@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 from math import degrees, isfinite
 
+from zteleop.control.proof import called
 from zteleop.inputs.cells import Span, cut, printable, width, wrap
 from zteleop.inputs.dashboard import WIDE, Dashboard, Line, line
 from zteleop.inputs.hold_lines import hold_lines
@@ -75,11 +76,9 @@ def operator(d: Dashboard, unicode: bool) -> str:
         return ""
     if not d.status.operator:
         return "nobody operates"
-    return (
-        "you operate"
-        if d.ours
-        else f"{printable(f'{d.status.source} {d.status.operator[:4]}', unicode)} operates"
-    )
+    if d.ours:
+        return "you operate"
+    return f"{printable(called(d.status.source, d.status.operator), unicode)} operates"
 
 
 def why(d: Dashboard, unicode: bool) -> str:

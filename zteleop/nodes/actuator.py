@@ -9,6 +9,7 @@ from zteleop.bus.topics import TOPICS
 from zteleop.control.command import to_command
 from zteleop.control.drive import Drive, DriveSettings
 from zteleop.control.explain import layers
+from zteleop.control.proof import called
 from zteleop.control.refusals import RefusedSenders
 from zteleop.control.report import describe, refusals, status
 from zteleop.control.standing import NOBODY, Standing, go_on, stand
@@ -145,7 +146,8 @@ class Actuator:
             self._refused.note(proof.sender, source, refusal, now)
         self._journal.command(source, sender, command, acted, refusal, now)
         if refusal:
-            self._node.log.warn(f"{received.key} is refused: {refusal}", f"{source} {refusal}")
+            who = called(source, f"{proof.sender:x}") if proof else received.key
+            self._node.log.warn(f"{who} is refused: {refusal}", f"{source} {refusal}")
         else:
             self._step_soon(now)
 

@@ -25,7 +25,7 @@ def status(**changes) -> DriveStatus:
     ("changes", "ours", "words"),
     [
         ({}, True, "● driving, you operate"),
-        ({}, False, "● driving, keyboard 3fa2 operates"),
+        ({}, False, "● driving, keyboard b1c0 operates"),
         ({"state": "idle", "operator": "", "source": ""}, False, "● idle, nobody operates"),
         ({"state": "link lost"}, True, "● link lost, you operate"),
     ],

@@ -548,9 +548,7 @@ def test_what_commands_nothing_is_dropped_and_said(robot: Robot) -> None:
 def test_a_refused_command_is_said_with_its_reason(robot: Robot) -> None:
     robot.clock.pass_by(2 * AT_MOST_EVERY)
     robot.say(FORWARD, proof=Proof(1, 1, 0, 0.0, 0.0, 0.0))
-    assert robot.node.warnings == [
-        "robot/archangel/cmd_vel/keyboard is refused: it was made before the robot's last start"
-    ]
+    assert robot.node.warnings == ["keyboard 0001 is refused: it was made before the robot's last start"]
     assert robot.chip.writes == []
     assert robot.node.alarms[0].due == float("inf")
 
