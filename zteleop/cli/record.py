@@ -11,6 +11,7 @@ import msgspec
 from zteleop import config
 from zteleop.bus import signals
 from zteleop.bus.node import Node
+from zteleop.bus.session import open_session
 from zteleop.bus.tap import Tap
 from zteleop.bus.topics import TOPICS
 from zteleop.config import Config
@@ -30,11 +31,15 @@ def run() -> int:
     robot = settings.robot or ""
     known = _paths(settings)
     bus = msgspec.structs.replace(settings.bus, largest=LARGEST)
-    with Node("blackbox", robot, bus) as node:
+    session = open_session(bus)
+    tap = Tap(
+        session, robot, known
+    )  # before the node says that it is there: who sees it counts on being heard
+    with Node("blackbox", robot, session=session) as node:
         for number in signals.ENDING:
             signal.signal(number, lambda *_: node.stop())
         writer = Writer(robot, config.state_folder(robot) / "blackbox")
-        BlackBox(node, Tap(node.session, robot, known), Ring(known), writer, ear, node.log.warn).run()
+        BlackBox(node, tap, Ring(known), writer, ear, node.log.warn).run()
     return 0
 
 

@@ -24,11 +24,19 @@ def made(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> dict[str, Any]:
     made: dict[str, Any] = {"handled": {}}
 
     @contextmanager
-    def join(name: str, robot: str, bus: BusSettings) -> Iterator[Any]:
-        made.update(name=name, bus=bus, node=Node(robot))
-        made["node"].session = "session"
+    def join(name: str, robot: str, session: str) -> Iterator[Any]:
+        assert (session, made["tapped"]) == ("session", True), "who sees it there counts on being heard"
+        made.update(name=name, node=Node(robot))
         yield made["node"]
         made["left"] = True
+
+    def open_bus(bus: BusSettings) -> str:
+        made["bus"] = bus
+        return "session"
+
+    def listen(session: str, robot: str, known: Any) -> Any:
+        made["tapped"] = True
+        return session, robot, known
 
     def box(node: Any, tap: Any, ring: Any, writer: Any, ear: int, warn: Any) -> Any:
         made.update(tap=tap, writer=writer, rest=os.read(ear, 100))
@@ -38,7 +46,8 @@ def made(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> dict[str, Any]:
     monkeypatch.setattr(record, "_stand_back", lambda: made.update(stood_back=True))
     monkeypatch.setattr(record, "Node", join)
     monkeypatch.setattr(record, "BlackBox", box)
-    monkeypatch.setattr(record, "Tap", lambda session, robot, known: (session, robot, known))
+    monkeypatch.setattr(record, "open_session", open_bus)
+    monkeypatch.setattr(record, "Tap", listen)
     monkeypatch.setattr(record, "Writer", lambda robot, folder: (robot, folder))
     monkeypatch.setattr(signal, "signal", lambda number, handler: made["handled"].update({number: handler}))
     return made
