@@ -63,6 +63,25 @@ def forget_the_ended() -> None:
     _started[:] = [process for process in _started if process.process.poll() is None]
 
 
+def descendants(pid: int) -> list[int]:
+    """Return the children of a process, and theirs."""
+    try:
+        children = [int(child) for child in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
+    except OSError:
+        return []
+    return children + [further for child in children for further in descendants(child)]
+
+
+def users_of(folder: str) -> list[str]:
+    """Return the command of each process that has a folder for its temporary files."""
+    found = []
+    for process in Path("/proc").glob("[0-9]*"):
+        with suppress(OSError):  # it ends just now, or is somebody else's
+            if f"TMPDIR={folder}".encode() in (process / "environ").read_bytes():
+                found.append((process / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace"))
+    return found
+
+
 class Process:
     """A process of its own, whose lines can be awaited."""
 
@@ -133,11 +152,13 @@ class Process:
         return code
 
     def close(self) -> None:
+        """End it with all that it started, frozen or not: what ends by itself is for a test to claim."""
         if self.process.poll() is None:
-            self.process.send_signal(signal.SIGCONT)
-            self.process.kill()
+            for pid in [self.process.pid, *descendants(self.process.pid)]:
+                with suppress(ProcessLookupError):
+                    os.kill(pid, signal.SIGKILL)
         self.process.wait()
-        self._reader.join()
+        self._reader.join(PATIENCE)
         if self.process.stdout:
             self.process.stdout.close()
 

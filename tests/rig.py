@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Self, TypeVar
 
 import zenoh
-from processes import PATIENCE, ZTELEOP, Process, Terminal, Unmet, until
+from processes import PATIENCE, ZTELEOP, Process, Terminal, Unmet, until, users_of
 
 from zteleop.bus.node import Node
 from zteleop.bus.session import BusSettings, open_session
@@ -109,7 +109,10 @@ class Rig:
         self.registers = open_registers(self.chip)
         self._stack = ExitStack()
         # A watchdog that is killed leaves its folder, whose path must be short: sockets lie in it.
-        self.environment["TMPDIR"] = self._stack.enter_context(tempfile.TemporaryDirectory(prefix="r"))
+        place = self.environment["TMPDIR"] = self._stack.enter_context(
+            tempfile.TemporaryDirectory(prefix="r")
+        )
+        self._stack.callback(lambda: until(lambda: not users_of(place), f"the end of {users_of(place)}"))
         self._stack.callback(self.registers.close)
         self._processes: list[Process] = []
 
