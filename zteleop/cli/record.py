@@ -31,13 +31,15 @@ def run() -> int:
     robot = settings.robot or ""
     known = _paths(settings)
     bus = msgspec.structs.replace(settings.bus, largest=LARGEST)
+    # Whoever sees that it is there counts on being heard, and may end it at once. So it says so last, and a
+    # signal that comes before waits.
+    signal.pthread_sigmask(signal.SIG_BLOCK, signals.ENDING)
     session = open_session(bus)
-    tap = Tap(
-        session, robot, known
-    )  # before the node says that it is there: who sees it counts on being heard
+    tap = Tap(session, robot, known)
     with Node("blackbox", robot, session=session) as node:
         for number in signals.ENDING:
             signal.signal(number, lambda *_: node.stop())
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, signals.ENDING)
         writer = Writer(robot, config.state_folder(robot) / "blackbox")
         BlackBox(node, tap, Ring(known), writer, ear, node.log.warn).run()
     return 0

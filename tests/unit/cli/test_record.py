@@ -10,6 +10,7 @@ import msgspec
 import pytest
 from unit.nodes.fakes import Node
 
+from zteleop.bus import signals
 from zteleop.bus.session import BusSettings
 from zteleop.cli import record
 from zteleop.config import Config
@@ -26,6 +27,7 @@ def made(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> dict[str, Any]:
     @contextmanager
     def join(name: str, robot: str, session: str) -> Iterator[Any]:
         assert (session, made["tapped"]) == ("session", True), "who sees it there counts on being heard"
+        made["held"] = signal.pthread_sigmask(signal.SIG_BLOCK, [])
         made.update(name=name, node=Node(robot))
         yield made["node"]
         made["left"] = True
@@ -84,6 +86,8 @@ def test_what_follows_the_settings_is_left_to_be_heard(run: dict[str, Any]) -> N
 
 
 def test_a_signal_ends_it_in_order(run: dict[str, Any]) -> None:
+    assert set(signals.ENDING) <= run["held"], "one that comes before it listens waits"
+    assert not set(signals.ENDING) & signal.pthread_sigmask(signal.SIG_BLOCK, [])
     run["handled"][signal.SIGTERM](signal.SIGTERM, None)
     assert run["node"].stopped
 
