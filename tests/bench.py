@@ -51,6 +51,12 @@ from zteleop.control.drive import Drive
 hold = Drive.hold
 Drive.hold = lambda self, reason, *words: None if reason == "stop" else hold(self, reason, *words)
 """
+LEAVES_SLOWLY = """
+import time
+from zteleop.bus.node import Node
+close = Node.close
+Node.close = lambda self: time.sleep(1.0) or close(self)
+"""
 MOVES_BY_ITSELF = """
 from zteleop.nodes.output import Output
 write = Output.write

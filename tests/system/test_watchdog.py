@@ -6,7 +6,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from bench import DRIVEN, FORWARD, MOVES_BY_ITSELF, Bench, defective
+from bench import DRIVEN, FORWARD, LEAVES_SLOWLY, MOVES_BY_ITSELF, Bench, defective
 from rig import NEUTRAL, ZTELEOP, Process, Rig, Watch, every, hear, repeating
 
 from zteleop.drivers.faults import Faults
@@ -28,6 +28,17 @@ def test_an_actuator_that_moves_by_itself_and_heeds_no_stop(rig: Rig) -> None:
     bench.rests()
     bench.is_latched("the watchdog")
     bench.stays_neutral()
+
+
+def test_an_actuator_that_was_told_to_end_and_leaves_slowly_was_not_only_late(rig: Rig) -> None:
+    bench = defective(rig, LEAVES_SLOWLY)
+    with bench.driven():
+        assert bench.watchdog.child
+        os.kill(bench.watchdog.child, signal.SIGTERM)
+        bench.rests()
+        bench.watchdog.says("the actuator is gone: it ended")
+        bench.watchdog.says(" is refused: it was moving before the robot started")
+        bench.stays_neutral()
 
 
 def test_with_its_standard_files_closed_no_log_line_goes_into_a_chip(rig: Rig) -> None:

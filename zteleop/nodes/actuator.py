@@ -124,7 +124,12 @@ class Actuator:
         self._drive.pause(DEAF, UNHEARD, now)
 
     def _finish(self) -> None:
-        """Leave neutral behind, as far as the chip takes it."""
+        """Leave neutral behind, as far as the chip takes it.
+
+        First of all the watchdog is told that this is an end: leaving the bus may take longer than the
+        silence after which it would start another in the place of one that was only late.
+        """
+        self._link.close()
         try:
             self._output.rest()
         finally:

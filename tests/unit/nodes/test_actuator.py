@@ -44,6 +44,10 @@ class Link:
     def __init__(self) -> None:
         self.words: Words | None = Words(None)
         self.reports: list[Report] = []
+        self.closed = False
+
+    def close(self) -> None:
+        self.closed = True
 
     def fileno(self) -> int:
         return 9
@@ -173,13 +177,23 @@ def test_the_chip_starts_at_neutral_and_is_left_at_neutral(node: Node, clock: Cl
 
 
 def test_a_chip_that_takes_no_neutral_at_the_end_is_said_and_all_is_closed(node: Node, clock: Clock) -> None:
-    chip, journal = Chip(), Journal()
-    actuator = Actuator(node, DriveSettings(), chip, Link(), Shelf(), journal)
+    chip, journal, link = Chip(), Journal(), Link()
+    actuator = Actuator(node, DriveSettings(), chip, link, Shelf(), journal)
     chip.broken.add("write")
     with pytest.raises(DeviceError, match="does not take a write"):
         actuator.run()
     assert chip.log[-1] == "close"
     assert journal.closed
+    assert link.closed
+
+
+def test_the_watchdog_is_told_of_an_end_before_anything_of_it_can_take_long(node: Node, clock: Clock) -> None:
+    chip, link = Chip(), Link()
+    actuator = Actuator(node, DriveSettings(), chip, link, Shelf(), Journal())
+    write, told = chip.write, []
+    chip.write = lambda *values: told.append(link.closed) or write(*values)
+    actuator.run()
+    assert told == [True]
 
 
 def test_it_starts_only_when_the_watchdog_hears_it(node: Node, clock: Clock) -> None:
