@@ -19,15 +19,15 @@ from zteleop.bus.session import BusSettings, open_session
 from zteleop.bus.subscription import Subscription
 from zteleop.cli.keyboard import painter
 from zteleop.control.drive import DriveSettings
-from zteleop.control.report import describe
+from zteleop.control.report import to_vehicle
 from zteleop.drivers import open_driver
 from zteleop.inputs.keyboard import Keyboard
 from zteleop.inputs.levers import Steps
-from zteleop.nodes import link
+from zteleop.machine import link
+from zteleop.machine.stop_file import StopFile
 from zteleop.nodes.actuator import AT_MOST_EVERY, Actuator
-from zteleop.nodes.journal import Journal
-from zteleop.nodes.stop_file import StopFile
 from zteleop.nodes.teleop import Teleop
+from zteleop.recording.journal import Journal
 
 KEYS = (b"\x1b[D", b"\x1b[C")
 WARM_UP = 20
@@ -112,7 +112,7 @@ def _press_all(
 ) -> None:
     terminal, views = TypedTerminal(), []
     keyboard = Keyboard("step", terminal=terminal)  # type: ignore[arg-type]
-    teleop = Teleop(node, keyboard, "keyboard", describe(settings, driver.tick_us), views.append)
+    teleop = Teleop(node, keyboard, "keyboard", to_vehicle(settings, driver.tick_us), views.append)
     paint = painter(keyboard, "bench", Steps())
     inbox, handler = actuator.inboxes["pwm/keyboard"]
     for index in range(WARM_UP + presses):

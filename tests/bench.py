@@ -1,7 +1,6 @@
 """A robot on a bench, a node in this process that drives it, and actuators with a defect put in."""
 
 import json
-import secrets
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -10,14 +9,16 @@ from rig import NEUTRAL, Process, Rig, every, hear, repeating, until
 
 from zteleop.bus.node import Node
 from zteleop.bus.publisher import Publisher
+from zteleop.machine.ids import new_id
 from zteleop.messages import DriveStatus, Pwm, Stop, WatchdogStatus
 
 FORWARD, DRIVEN = Pwm(390, 400), (390, 400)
 STREAM = 0.02
 START = """
 import sys
-from zteleop.cli import actuator, main
-actuator.CHILD = [sys.executable, "-c", sys.argv[1]]
+from zteleop.cli import main
+from zteleop.processes import watchdog
+watchdog.CHILD = [sys.executable, "-c", sys.argv[1]]
 sys.exit(main(["actuator", *sys.argv[2:]]))
 """
 ACTUATOR = """
@@ -130,7 +131,7 @@ class Bench:
         return self.last
 
     def press_stop(self) -> None:
-        self.node.publisher("stop", Stop).publish(Stop(True, secrets.randbits(53), "the test", ""))
+        self.node.publisher("stop", Stop).publish(Stop(True, new_id(), "the test", ""))
 
 
 def defective(rig: Rig, defect: str) -> Bench:

@@ -22,8 +22,8 @@ from zteleop.bus.session import BusSettings, open_session
 from zteleop.bus.subscription import Subscription
 from zteleop.drivers.registers import read_duty_ticks
 from zteleop.drivers.simulated import open_registers
+from zteleop.machine import realtime
 from zteleop.messages import Message
-from zteleop.nodes import realtime
 
 M = TypeVar("M", bound=Message)
 ROOT = Path(__file__).parents[1]

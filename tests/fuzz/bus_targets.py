@@ -15,8 +15,8 @@ from zteleop.bus.session import BusSettings, _check_threads, _configure
 from zteleop.cli.echo import render as echo
 from zteleop.control.gate import Deadlines, Gate
 from zteleop.errors import ConfigError, MessageError
-from zteleop.inputs.cells import printable as shown
 from zteleop.messages import Message
+from zteleop.terminal.cells import printable as shown
 
 EPOCH = 7 << 50
 

@@ -13,13 +13,13 @@ from zteleop.bus.escape import printable
 from zteleop.cli import VERBS
 from zteleop.cli.pub import _yaml
 from zteleop.config import Config
-from zteleop.control.report import describe
+from zteleop.control.report import to_vehicle
 from zteleop.errors import ConfigError, MessageError
 from zteleop.inputs.keyboard import ACTIONS, Keyboard
 from zteleop.inputs.keymap import DIRECTIONS, bindings
-from zteleop.inputs.keys import KeyParser
 from zteleop.interfaces.values import fill
 from zteleop.messages import MESSAGES
+from zteleop.terminal.keys import KeyParser
 
 DRIVE_ACTIONS = {*ACTIONS, *DIRECTIONS}
 
@@ -58,7 +58,7 @@ def keyboard(data: bytes) -> None:
     for drive in ("step", "hold"):
         terminal, now = Terminal(), 100.0
         device = Keyboard(drive, terminal=terminal)  # type: ignore[arg-type]
-        device.fit(describe(Config().drive, 4.08))
+        device.fit(to_vehicle(Config().drive, 4.08))
         for at in range(0, len(data), 7):
             terminal.typed, now = data[at : at + 7], now + 0.03
             device.read(now)

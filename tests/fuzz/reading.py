@@ -11,7 +11,7 @@ import zenoh
 from zteleop.bus import codec
 from zteleop.config import Config
 from zteleop.control.drive import Drive
-from zteleop.control.report import describe
+from zteleop.control.report import to_vehicle
 from zteleop.messages import MESSAGES
 
 ALL = codec.decoders(MESSAGES.values())
@@ -40,7 +40,7 @@ def use(settings: Config) -> None:
     """Check that settings that were taken can be obeyed."""
     drive = Drive(settings.drive, 4.08, epoch=1, now=0.0)
     assert drive.step(0.02).state == "idle"
-    assert codec.encode(describe(settings.drive, 4.08))
+    assert codec.encode(to_vehicle(settings.drive, 4.08))
     assert settings.driver_settings(settings.driver, "archangel") is not None
 
 

@@ -14,18 +14,19 @@ from zteleop.bus import codec
 from zteleop.bus.escape import printable
 from zteleop.bus.names import robot_name
 from zteleop.bus.tap import Raw
-from zteleop.cli import obey
 from zteleop.cli.blackbox import _show
 from zteleop.drivers.chip import LEDS, Chip
 from zteleop.drivers.chip_file import FILE_SIZE, map_file
 from zteleop.drivers.simulated import SimulatedSettings, open_driver
 from zteleop.errors import ConfigError, DeviceError
+from zteleop.machine import link
+from zteleop.machine.child import Child
+from zteleop.machine.link import ActuatorEnd, WatchdogEnd
+from zteleop.machine.stop_file import StopFile
 from zteleop.messages import MESSAGES
-from zteleop.nodes import blackbox_file, link
-from zteleop.nodes.child import Child
-from zteleop.nodes.journal_file import JournalFile, Line
-from zteleop.nodes.link import ActuatorEnd, WatchdogEnd
-from zteleop.nodes.stop_file import StopFile
+from zteleop.processes import actuator
+from zteleop.recording import blackbox_file
+from zteleop.recording.journal_file import Entry, JournalFile
 
 TIME = codec.encoding_of(MESSAGES["builtin_interfaces/msg/Time"])
 
@@ -43,7 +44,7 @@ def config_text(data: bytes) -> None:
 def orders(data: bytes) -> None:
     """Read what a watchdog gives its actuator on standard input."""
     try:
-        settings, _ = obey.orders(data)
+        settings, _ = actuator.orders(data)
     except ConfigError:
         return
     use(settings)
@@ -94,7 +95,7 @@ def journal(data: bytes) -> None:
     path, text = scratch() / "journal.jsonl", data.decode("utf-8", "surrogateescape")
     path.write_bytes(data)
     file = JournalFile(path)
-    file.put(Line(codec.decode(b'{"sec":0,"nanosec":0}', TIME, ALL), 0.0, "act", {"why": text}))  # type: ignore[arg-type]
+    file.put(Entry(codec.decode(b'{"sec":0,"nanosec":0}', TIME, ALL), 0.0, "act", {"why": text}))  # type: ignore[arg-type]
     file.close()
     assert not file.trouble
     last = path.read_bytes().splitlines()[-1]

@@ -3,7 +3,7 @@
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from zteleop.inputs.keys import KeyParser
+from zteleop.terminal.keys import KeyParser
 
 PIECES = st.one_of(
     st.binary(max_size=6),

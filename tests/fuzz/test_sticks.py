@@ -8,20 +8,20 @@ from hypothesis import strategies as st
 
 from zteleop.control.drive import DriveSettings
 from zteleop.control.mixer import Differential
-from zteleop.control.report import describe
+from zteleop.control.report import to_vehicle
 from zteleop.control.servo import Servo
 from zteleop.control.stick import to_pwm, to_twist
 from zteleop.inputs.keyboard import Keyboard
 from zteleop.inputs.levers import Steps
 
-CAR = describe(DriveSettings(), 4.08)
-REVERSED = describe(
+CAR = to_vehicle(DriveSettings(), 4.08)
+REVERSED = to_vehicle(
     DriveSettings(
         servos={"throttle": Servo(channel=0), "steering": Servo(channel=1, min_us=2000, max_us=1000)}
     ),
     4.08,
 )
-TANK = describe(
+TANK = to_vehicle(
     DriveSettings(mixer=Differential(), servos={"left": Servo(channel=0), "right": Servo(channel=1)}), 4.08
 )
 ARROWS = [b"\x1b[A", b"\x1b[B", b"\x1b[C", b"\x1b[D"]

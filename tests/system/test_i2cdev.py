@@ -11,7 +11,7 @@ import pytest
 from preload import environment, library
 from preload.device import DEVICE_CASES
 
-from zteleop.drivers.faults import Faults, take
+from zteleop.drivers.faults import Faults, next_fault
 
 TESTS = Path(__file__).parents[1]
 
@@ -41,6 +41,6 @@ def test_several_drivers_of_a_chip_meet_as_many_faults_as_were_put_in(tmp_path: 
     path = str(tmp_path / "chip")
     with Faults(path) as faults, ThreadPoolExecutor(4) as drivers:
         faults.nack(400)
-        met = drivers.map(take, [path] * 500)
+        met = drivers.map(next_fault, [path] * 500)
         assert sum(fault is not None for fault in met) == 400
         assert faults.pending().nack == 0

@@ -20,7 +20,8 @@ def lost(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Process]:
     """A program beside no robot, begun early because it waits for one, if only for a second here."""
     with Rig(tmp_path_factory.mktemp("lost")) as bench:
         configure(bench)
-        yield program(bench, "import zteleop.compat.pwm_controller as it\nit.PATIENCE = 0\nPWMController(1)")
+        unheard = "import zteleop.compat.pwm_controller as it\nit.HEARD_WITHIN = 0\nPWMController(1)"
+        yield program(bench, unheard)
 
 
 def configure(rig: Rig) -> None:

@@ -11,8 +11,8 @@ import pytest
 from bench import Bench
 from rig import Rig, until
 
-from zteleop.cli import actuator, obey
-from zteleop.nodes.realtime import FEEDERS
+from zteleop.machine.realtime import FEEDERS
+from zteleop.processes import PROGRAMS
 
 if sys.platform != "linux":
     pytest.skip("asks Linux", allow_module_level=True)
@@ -21,7 +21,10 @@ ZENOH = re.compile(r"(app|rx|tx|net|acc)-\d+")
 """The names that zenoh gives its threads; Python before 3.14 gives none."""
 LEAST_INBOXES = 5
 Rank = tuple[int, int]
-WATCHDOG, ACTUATOR = (os.SCHED_FIFO, actuator.PRIORITY), (os.SCHED_FIFO, obey.PRIORITY)
+WATCHDOG, ACTUATOR = (
+    (os.SCHED_FIFO, PROGRAMS["watchdog"].priority),
+    (os.SCHED_FIFO, PROGRAMS["actuator"].priority),
+)
 FEEDS, BEHIND, ORDINARY = (os.SCHED_RR, FEEDERS), (os.SCHED_FIFO, 1), (os.SCHED_OTHER, 0)
 
 
@@ -30,7 +33,7 @@ def permitted() -> bool:
     child = os.fork()
     if not child:
         try:
-            os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(actuator.PRIORITY))
+            os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(PROGRAMS["watchdog"].priority))
         finally:
             os._exit(os.sched_getscheduler(0) != os.SCHED_FIFO)
     return os.waitpid(child, 0)[1] == 0

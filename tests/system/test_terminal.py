@@ -44,7 +44,7 @@ import select, signal, sys, time
 
 from zteleop.control.stick import Speeds
 from zteleop.inputs.keyboard import Keyboard
-from zteleop.inputs.screen import Dashboard, render
+from zteleop.screen.render import Dashboard, render
 from zteleop.messages import Channel, Vehicle
 
 

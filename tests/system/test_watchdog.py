@@ -97,7 +97,7 @@ def test_what_the_watchdog_sees_can_be_asked(rig: Rig) -> None:
     lines = why.stdout.splitlines()
     assert lines[0] == "bench is driving: keyboard drives"
     names = [line.split()[0] for line in lines[1:]]
-    assert names == ["operator", "mux", "gate", "rest", "cap", "limiter", "wheels", "watchdog"]
+    assert names == ["operator", "gate", "mux", "rest", "cap", "limiter", "wheels", "watchdog"]
     assert watching in lines[-1]
 
 

@@ -11,8 +11,8 @@ from verdict import Deadline
 
 from zteleop.bus.node import Node
 from zteleop.chaos.cable import Cable
+from zteleop.machine import realtime
 from zteleop.messages import Pwm
-from zteleop.nodes import realtime
 
 FORWARD = Pwm(390, 400)
 PATTERN = (390, 400)

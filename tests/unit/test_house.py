@@ -23,6 +23,12 @@ def test_no_file_is_long_or_named_after_nothing() -> None:
     assert (long, [str(path) for path in SOURCES if path.stem in nothing]) == ([], [])
 
 
+def test_every_room_says_in_its_first_line_what_is_in_it() -> None:
+    for room in {path.parent for path in SOURCES} - {ROOT / "zteleop/chaos/sabotage"}:
+        first = (ast.get_docstring(ast.parse((room / "__init__.py").read_text())) or "").split("\n")[0]
+        assert first.endswith((".", ":")), f"{room.relative_to(ROOT)} begins with {first!r}"
+
+
 def test_functions_are_short() -> None:
     lengths = sorted(
         node.end_lineno - node.lineno + 1

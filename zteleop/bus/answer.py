@@ -1,9 +1,10 @@
 """What a robot answers to one publisher of commands: they count, they do not, or it is not heard at all."""
 
 from zteleop.bus import clock
-from zteleop.bus.heard import NEVER, Heard
+from zteleop.bus.heard import Heard
 from zteleop.bus.log import NodeLog
 from zteleop.control.gate import Refusal
+from zteleop.control.proof import NEVER
 from zteleop.messages import Refusals
 
 UNHEARD = 1.0

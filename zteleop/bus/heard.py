@@ -4,11 +4,11 @@ import time
 
 from zteleop.bus import clock
 from zteleop.bus.subscription import Subscription
+from zteleop.control.proof import NEVER
 from zteleop.messages import Beat, Refusals, Vehicle
 
-PATIENCE, START = 1.0, 6.0
+HEARD_WITHIN, START = 1.0, 6.0
 """s for the robot to be heard, and then for its start to be over."""
-NEVER = float("-inf")
 _POLL = 0.002
 
 
@@ -46,7 +46,7 @@ class Heard:
         """
         began, self._waited = (NEVER if self._waited else clock.now()), True
         self.listen()
-        while not self.ready and clock.now() - began < (START if self.there else PATIENCE):
+        while not self.ready and clock.now() - began < (START if self.there else HEARD_WITHIN):
             time.sleep(_POLL)
             self.listen()
         return self.there

@@ -1,13 +1,12 @@
 """A node: a name on the bus, with publishers, subscriptions and timers, single-threaded for its user."""
 
-import secrets
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, Self, TypeVar
 
 import zenoh
 
-from zteleop.bus import clock, codec, presence, signals, voice
+from zteleop.bus import clock, codec, presence
 from zteleop.bus.answer import Answer
 from zteleop.bus.heard import Heard
 from zteleop.bus.log import NodeLog
@@ -19,13 +18,14 @@ from zteleop.bus.subscription import Pump, Received, Subscription
 from zteleop.bus.topics import topic_of
 from zteleop.control.proof import Prover
 from zteleop.errors import BusError, ConfigError
+from zteleop.machine import signals, stderr
+from zteleop.machine.ids import new_id
 from zteleop.messages import Beat, Log, Message, Refusals, Vehicle
 
 M = TypeVar("M", bound=Message)
 T = TypeVar("T")
 Types = type[M] | tuple[type[M], ...]
 _GLANCE = 0.01
-_SENDER_BITS = 53  # what every JSON reader can count
 
 
 class Node:
@@ -56,7 +56,7 @@ class Node:
         self._tokens: list[zenoh.LivelinessToken] = []
         self._heard: dict[str, Heard] = {}
         self._log_publisher: Publisher[Log] | None = None
-        self.log = NodeLog(self.name, self._say, voice.say)
+        self.log = NodeLog(self.name, self._say, stderr.say)
         if self.robot:
             self._token(presence.node_key(self.robot, self.name))
             self._log_publisher = self.publisher("log", Log)
@@ -78,14 +78,15 @@ class Node:
         for pump in self._pumps:
             pump.close()
         self._loop.close()
-        voice.flush()
+        stderr.flush()
 
     def publisher(
         self, topic: str, types: Types[M], *, source: str = "program", wait: bool = True
     ) -> Publisher[M]:
         """Return what says messages on a topic; on a command topic, as a source of that kind.
 
-        For a command it first waits, at most 1 s, until the robot is heard: its proofs echo the beats.
+        For a command it first waits, at most 1 s, until the robot is heard, as its proofs echo the beats; and
+        while the robot starts, at most 6 s.
         Raises ConfigError when the topic's name is none, or the topic takes other types.
         """
         name, kinds = resolve(topic, self.robot), _tuple(types)
@@ -100,7 +101,7 @@ class Node:
             name = Name(name.robot, f"{kind.name}/{chunk(source, 'a source')}")
         heard = self.heard(name.robot)
         found = heard.wait() if wait else True
-        sender = secrets.randbits(_SENDER_BITS)
+        sender = new_id()
         answer = Answer(f"{sender:x}", path, name.robot, heard, self.log)
         if not found:
             answer.miss()

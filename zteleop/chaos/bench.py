@@ -19,6 +19,7 @@ from zteleop.chaos.terminal import Terminal
 from zteleop.config import Config
 from zteleop.drivers.faults import Faults
 from zteleop.errors import BusError
+from zteleop.machine.ids import new_id
 from zteleop.messages import DriveStatus, Stop, Twist
 
 START = 10.0
@@ -175,7 +176,7 @@ class Bench:
 
     def press_stop(self, node: Node | None = None, by: str = "chaos") -> None:
         """Press Stop once."""
-        stop = Stop(engaged=True, id=secrets.randbits(53), by=by, why="")
+        stop = Stop(engaged=True, id=new_id(), by=by, why="")
         (node.publisher("stop", Stop) if node else self.stops).publish(stop)
 
     def release(self, stop: int) -> None:

@@ -30,7 +30,7 @@ class Way:
     def full(self) -> bool:
         return self._weight >= QUEUE
 
-    def take(self, now: float, delay: float, rate: float | None) -> None:
+    def carry(self, now: float, delay: float, rate: float | None) -> None:
         """Take what was said; it arrives after a delay, and no faster than `rate` bytes a second."""
         data = b""
         with suppress(OSError):
@@ -97,7 +97,7 @@ class Cable:
             heard = select.select([self._listener, *ready], [], [], LOOK)[0]
             now = time.monotonic()
             for end in heard:
-                self._accept() if end is self._listener else ready[end].take(now, self.delay, self.rate)
+                self._accept() if end is self._listener else ready[end].carry(now, self.delay, self.rate)
             for way in self._ways:
                 if way.forth not in self._cut:
                     way.deliver(now)

@@ -4,7 +4,7 @@ from zteleop.chaos.bench import Bench
 from zteleop.chaos.fault import Fault
 from zteleop.chaos.operators import here
 
-PATIENCE = 2.0
+ANSWERED_WITHIN = 2.0
 TWO_PEOPLE = "ann@chaos", "bob@chaos"
 
 
@@ -31,8 +31,8 @@ def release(bench: Bench) -> None:
             bench.release(stop.id)
         return bool(status and not status.stops)
 
-    bench.until(lambda: (status := bench.status) and status.stops, PATIENCE)
-    bench.until(released, PATIENCE)
+    bench.until(lambda: (status := bench.status) and status.stops, ANSWERED_WITHIN)
+    bench.until(released, ANSWERED_WITHIN)
 
 
 def press_by_two_people(bench: Bench) -> None:
@@ -51,7 +51,7 @@ def release_one_and_begin_anew(bench: Bench) -> None:
             bench.release(stops[first])
         return set(stops) == {second}
 
-    bench.until(released, PATIENCE)
+    bench.until(released, ANSWERED_WITHIN)
     bench.meanwhile(here(bench, bench.join()))
 
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 ZTELEOP = (sys.executable, "-m", "zteleop")
-FAREWELL = 5.0
+ENDS_WITHIN = 5.0
 
 
 class Process:
@@ -60,7 +60,7 @@ class Process:
         for number in (signal.SIGCONT, signal.SIGTERM):
             self.signal(number)
         try:
-            self._process.wait(FAREWELL)
+            self._process.wait(ENDS_WITHIN)
         except subprocess.TimeoutExpired:
             self._process.kill()
             self._process.wait()

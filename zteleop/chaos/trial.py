@@ -12,7 +12,7 @@ from zteleop.chaos.waiting import Meter, Verdict
 from zteleop.chaos.waiting import judge as judge_time
 from zteleop.errors import BusError
 
-PATIENCE = 10.0
+DRIVEN_WITHIN = 10.0
 QUIET = 0.6
 """s for which a robot that rests is watched"""
 GIVE_UP = 5.0
@@ -47,7 +47,7 @@ def driven(subject: Subject, fault: Fault) -> Iterator[Bench]:
         bench.await_ready()
         fault.before(bench)
         with OPERATORS[fault.operator](bench):
-            if bench.until(lambda: not bench.eye.at_rest, PATIENCE) is None:
+            if bench.until(lambda: not bench.eye.at_rest, DRIVEN_WITHIN) is None:
                 raise BusError(f"the robot does not drive: {bench.watchdog.words}")
             yield bench
 

@@ -11,9 +11,9 @@ from zteleop import config
 from zteleop.bus.escape import printable
 from zteleop.bus.names import robot_name
 from zteleop.errors import ConfigError
-from zteleop.nodes import blackbox_file
-from zteleop.nodes.blackbox_file import Header, Line, Recording
-from zteleop.nodes.timeline import Event, timeline
+from zteleop.recording import blackbox_file
+from zteleop.recording.blackbox_file import Header, Recorded, Recording
+from zteleop.recording.timeline import Event, timeline
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -108,7 +108,7 @@ def _relative(header: Header, at: float, exact: bool = False) -> str:
     return f"  {'0.00' if exact else f'{at - header.at:+.2f}':>7} s"
 
 
-def _message(header: Header, line: Line) -> str:
+def _message(header: Header, line: Recorded) -> str:
     said = "deleted" if line.deleted else line.base64 or _encode(line.payload)
     proof = f"  proof {_encode(line.proof._asdict())}" if line.proof else ""
     return f"{_relative(header, line.at)}  {line.key}  {line.encoding}  {said}{proof}"

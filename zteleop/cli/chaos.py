@@ -13,7 +13,7 @@ from zteleop.cli import options
 from zteleop.cli.neutral import bring_to_rest
 from zteleop.config import Config
 from zteleop.errors import ConfigError, ZteleopError
-from zteleop.nodes.stop_file import StopFile
+from zteleop.machine.stop_file import StopFile
 
 CONSENT = "wheels up"
 LATER = 0.007

@@ -3,7 +3,7 @@ from pathlib import Path
 
 from zteleop import config
 from zteleop.config import Config
-from zteleop.control.report import describe
+from zteleop.control.report import to_vehicle
 from zteleop.drivers import tick_us
 
 
@@ -21,7 +21,7 @@ def run(arguments: argparse.Namespace) -> None:
 
 def _summary(settings: Config) -> str:
     """Say in a few lines what a robot with these settings is."""
-    vehicle = describe(settings.drive, tick_us(settings.driver, settings.drivers.get(settings.driver, {})))
+    vehicle = to_vehicle(settings.drive, tick_us(settings.driver, settings.drivers.get(settings.driver, {})))
     lines = [
         f"robot    {settings.robot or 'a name of its own'}",
         f"driver   {settings.driver}",

@@ -1,14 +1,11 @@
 import argparse
-import os
 import secrets
 import socket
-import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from collections.abc import Sequence
+from contextlib import ExitStack
 from pathlib import Path
-from typing import IO
 
 from zteleop.bus import clock
 from zteleop.bus.node import Node
@@ -17,11 +14,11 @@ from zteleop.cli.keyboard import drive_with_keys, find_vehicle
 from zteleop.config import Config
 from zteleop.errors import BusError
 from zteleop.inputs.script import Script
+from zteleop.machine.leash import Process, leashed
 from zteleop.messages import Odometry
 from zteleop.nodes.teleop import Teleop, View
 
 START = 10.0
-FAREWELL = 3.0
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -37,14 +34,10 @@ def run(arguments: argparse.Namespace) -> int:
         log = stack.enter_context((folder / "log").open("w"))
         (folder / "config.toml").write_text(f'[drivers.simulated]\npath = "{folder / "chip"}"\n')
         where = ["--config", str(folder / "config.toml"), "--robot", robot, "--no-multicast-scouting"]
-        children = [
-            stack.enter_context(
-                child(["actuator", *where, "--listen", endpoint, "--listen", SAME_MACHINE_DOOR], log)
-            ),
-            stack.enter_context(
-                child(["sim", *where, "--connect", endpoint, "--listen", "tcp/127.0.0.1:0"], log)
-            ),
-        ]
+        robots = ["actuator", *where, "--listen", endpoint, "--listen", SAME_MACHINE_DOOR]
+        wheels = ["sim", *where, "--connect", endpoint, "--listen", "tcp/127.0.0.1:0"]
+        keeps = {"XDG_STATE_HOME": str(folder)}  # a demo leaves nothing behind
+        children = [stack.enter_context(leashed(verb, log, keeps)) for verb in (robots, wheels)]
         bus = BusSettings(connect=[endpoint], listen=["tcp/127.0.0.1:0"], multicast=False)
         node = stack.enter_context(Node("keyboard", robot, bus))
         await_robot(node, children, Path(log.name))
@@ -94,32 +87,7 @@ class Teller:
         return f"{view.status.state:13}  {speed:5.2f} m/s  x {x:6.2f} m  y {y:6.2f} m  {pulses}"
 
 
-@contextmanager
-def child(arguments: list[str], log: IO[str]) -> Iterator["subprocess.Popen[bytes]"]:
-    """Run a verb as a process that ends with this one, however this one ends."""
-    command = [sys.executable, "-m", "zteleop", *arguments, "--with-parent"]
-    keeps = {"XDG_STATE_HOME": str(Path(log.name).parent)}  # a demo leaves nothing behind
-    process = subprocess.Popen(
-        command,
-        stdin=subprocess.PIPE,
-        stdout=log,
-        stderr=subprocess.STDOUT,
-        start_new_session=True,
-        env=os.environ | keeps,
-    )
-    try:
-        yield process
-    finally:
-        assert process.stdin
-        process.stdin.close()
-        try:
-            process.wait(FAREWELL)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
-
-
-def await_robot(node: Node, children: "list[subprocess.Popen[bytes]]", log: Path) -> None:
+def await_robot(node: Node, children: Sequence[Process], log: Path) -> None:
     """Wait until the car stands on its wheels; raises BusError with a child's last words when it does not."""
     odoms = node.subscription("odom", Odometry)
     give_up = clock.now() + START

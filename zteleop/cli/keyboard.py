@@ -7,18 +7,18 @@ from zteleop.bus.lane.call import Call
 from zteleop.bus.node import Node
 from zteleop.cli import options
 from zteleop.config import Config
-from zteleop.control.report import describe
+from zteleop.control.report import to_vehicle
 from zteleop.drivers import tick_us
-from zteleop.inputs.dashboard import Dashboard
 from zteleop.inputs.keyboard import Keyboard
 from zteleop.inputs.levers import Steps
-from zteleop.inputs.screen import render
 from zteleop.messages import Pwm, Twist, Vehicle
 from zteleop.nodes.teleop import Teleop, View
+from zteleop.screen.dashboard import Dashboard
+from zteleop.screen.render import render
 
 TRAIL = 400
 TRAIL_STEP = 0.05
-PATIENCE = 0.6
+HEARD_WITHIN = 0.6
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -50,12 +50,12 @@ def drive_with_keys(node: Node, settings: Config, drive: str | None = None) -> N
 
 def find_vehicle(node: Node, settings: Config) -> Vehicle:
     """Return what the robot says of itself; when it is not there yet, what the settings say."""
-    give_up = clock.now() + PATIENCE
+    give_up = clock.now() + HEARD_WITHIN
     while clock.now() < give_up:
         if vehicle := node.heard().vehicle:
             return vehicle
         node.spin(0.01)
-    return describe(
+    return to_vehicle(
         settings.drive, tick_us(settings.driver, settings.driver_settings(settings.driver, "any"))
     )
 

@@ -3,9 +3,9 @@
 import argparse
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import msgspec
-import zenoh
 
 from zteleop import config
 from zteleop.bus import presence
@@ -16,6 +16,9 @@ from zteleop.bus.session import open_session
 from zteleop.cli.salvage import salvage
 from zteleop.config import Config
 from zteleop.errors import ConfigError
+
+if TYPE_CHECKING:
+    import zenoh
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -80,7 +83,7 @@ def _with_typed(options: argparse.Namespace, settings: Config) -> Config:
     return msgspec.structs.replace(settings, bus=bus, robot=robot)
 
 
-def find_robot(session: zenoh.Session, settings: Config) -> str:
+def find_robot(session: "zenoh.Session", settings: Config) -> str:
     """Return the robot meant: the one named, else the only one on the bus, else this machine's own.
 
     Raises ConfigError when there are several.

@@ -14,7 +14,7 @@ from zteleop.errors import BusError, MessageError
 from zteleop.interfaces.values import fill
 from zteleop.messages import DriveStatus, Message, message_type
 
-PATIENCE = 3.0
+HEARD_WITHIN = 3.0
 SETTLE = 0.1
 """s in which others who hear a topic are found; a robot's black box, which hears all, is often the first"""
 
@@ -83,7 +83,7 @@ def _say(
 def _wait(node: Node, publisher: Publisher[Message], command: bool) -> None:
     """Wait until somebody hears; for a command until the robot that it proves its age to has started."""
     heard = node.heard()
-    matched = node.until(lambda: publisher.matched and (heard.beat or not command), PATIENCE)
+    matched = node.until(lambda: publisher.matched and (heard.beat or not command), HEARD_WITHIN)
     if command and not matched:
         raise BusError(f"robot {node.robot} does not answer; is its actuator on? zteleop list shows who is")
     if command:

@@ -5,10 +5,9 @@ import io
 import sys
 from importlib import import_module
 
-from zteleop.bus import signals
 from zteleop.bus.escape import printable
-from zteleop.cli import limits
 from zteleop.errors import ZteleopError
+from zteleop.machine import limits, signals
 
 
 def run_verb(verb: str, text: str, arguments: list[str]) -> int:

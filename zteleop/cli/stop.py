@@ -12,7 +12,7 @@ from zteleop.cli import options
 from zteleop.config import Config
 from zteleop.errors import BusError
 from zteleop.messages import DriveStatus
-from zteleop.nodes.stopping import PATIENCE, REPEAT, Stopping, person
+from zteleop.nodes.stop_request import ACKNOWLEDGED_WITHIN, REPEAT, Stopping, person
 
 GLANCE = 0.01
 
@@ -116,9 +116,9 @@ def release(node: Node, robot: str, everybodys: bool = False) -> str:
     """End one's own stops that a robot shows, or everybody's, and return what to tell; BusError when not."""
     statuses = node.subscription(f"/{robot}/drive_status", DriveStatus)
     stopping = Stopping(node, person(), robot)
-    stopping.release(node.until(statuses.newest, PATIENCE), clock.now(), everybodys)
+    stopping.release(node.until(statuses.newest, ACKNOWLEDGED_WITHIN), clock.now(), everybodys)
     _listen(node, stopping)
-    node.until(lambda: stopping.heed(None, clock.now()), 2 * PATIENCE)
+    node.until(lambda: stopping.heed(None, clock.now()), 2 * ACKNOWLEDGED_WITHIN)
     if stopping.state != "done":
         raise BusError(stopping.words + (f"; {_who_is_here(node)}" if stopping.unheard else ""))
     return stopping.words

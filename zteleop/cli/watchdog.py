@@ -4,12 +4,12 @@ from zteleop.bus import clock
 from zteleop.bus.escape import printable
 from zteleop.bus.subscription import Received
 from zteleop.cli import options
-from zteleop.cli.why import describe
+from zteleop.cli.why import state_of
 from zteleop.errors import BusError
 from zteleop.messages import WatchdogStatus
 
 LINE_EVERY = 1.0
-PATIENCE = 2.0
+HEARD_WITHIN = 2.0
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -30,15 +30,15 @@ def run(arguments: argparse.Namespace) -> None:
             news = (dog.state, dog.why, dog.moving, dog.allowed, dog.restarts)
             if news != shown or heard_at - shown_at >= LINE_EVERY:
                 shown, shown_at = news, heard_at
-                print(printable(f"{node.robot}  {describe(dog)}; {dog.commands} commands heard"), flush=True)
+                print(printable(f"{node.robot}  {state_of(dog)}; {dog.commands} commands heard"), flush=True)
                 if arguments.once:
                     node.stop()
 
-        @node.every(PATIENCE / 4)
+        @node.every(HEARD_WITHIN / 4)
         def notice_silence() -> None:
-            if clock.now() - heard_at > PATIENCE:
+            if clock.now() - heard_at > HEARD_WITHIN:
                 raise BusError(
-                    f"no watchdog of {node.robot} has been heard for {PATIENCE:g} s; "
+                    f"no watchdog of {node.robot} has been heard for {HEARD_WITHIN:g} s; "
                     "if the robot moves, cut its power; else start zteleop actuator"
                 )
 

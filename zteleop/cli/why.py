@@ -6,7 +6,7 @@ from zteleop.cli import options
 from zteleop.errors import BusError
 from zteleop.messages import DriveStatus, WatchdogStatus, Why
 
-PATIENCE = 2.0
+HEARD_WITHIN = 2.0
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -31,20 +31,21 @@ def explain(node: Node) -> str:
         dog = dogs.newest() or dog
         return bool(status and why and dog)
 
-    node.until(complete, PATIENCE)
+    node.until(complete, HEARD_WITHIN)
     if status is None and dog is None:
         raise BusError(
-            f"no actuator of {node.robot} is heard within {PATIENCE:g} s; is it on? zteleop list shows who is"
+            f"no actuator of {node.robot} is heard within {HEARD_WITHIN:g} s; is it on? "
+            "zteleop list shows who is"
         )
     lines = [
         f"{node.robot} is {status.state}: {status.why}" if status else f"{node.robot}: no actuator heard"
     ]
     lines += [f"  {layer.name:9} {layer.says}" for layer in (why.layers if why else [])]
-    lines.append(f"  {'watchdog':9} {describe(dog) if dog else 'is not heard'}")
+    lines.append(f"  {'watchdog':9} {state_of(dog) if dog else 'is not heard'}")
     return "\n".join(map(printable, lines))
 
 
-def describe(dog: WatchdogStatus) -> str:
+def state_of(dog: WatchdogStatus) -> str:
     """Return what a watchdog sees, in a line."""
     sees = "pulses that move" if dog.moving else "pulses of rest"
     permits = "somebody may drive" if dog.allowed else "nobody may drive"

@@ -1,4 +1,4 @@
-"""The Donkeycar nodes' `PWMController`, over the bus: what it says passes mux, gate and limiter.
+"""The Donkeycar nodes' `PWMController`, over the bus: what it says passes gate, mux and limiter.
 
 It is a program as any other: after 0.5 s without a call the channel is neutral again.
 """
@@ -6,14 +6,14 @@ It is a program as any other: after 0.5 s without a call the channel is neutral 
 from functools import cache
 from weakref import WeakKeyDictionary
 
-from zteleop.bus import voice
 from zteleop.bus.node import Node
 from zteleop.bus.publisher import Publisher
 from zteleop.drivers.registers import prescale, tick_us
 from zteleop.errors import BusError, ConfigError
+from zteleop.machine import stderr
 from zteleop.messages import Channel, Pwm, Vehicle
 
-PATIENCE = 3.0
+HEARD_WITHIN = 3.0
 
 
 class Pair:
@@ -67,8 +67,8 @@ def _own_node() -> Node:
 def _join(node: Node) -> Pair:
     pwms = node.publisher("pwm", Pwm)
     heard = node.heard()
-    if not node.until(lambda: heard.beat and heard.vehicle and pwms.matched, PATIENCE):
-        voice.flush()  # what the log said of it comes first, and the error is the last word
+    if not node.until(lambda: heard.beat and heard.vehicle and pwms.matched, HEARD_WITHIN):
+        stderr.flush()  # what the log said of it comes first, and the error is the last word
         raise BusError(f"robot {node.robot} does not answer; start zteleop actuator first")
     assert heard.vehicle
     return Pair(pwms, heard.vehicle)

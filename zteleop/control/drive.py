@@ -14,7 +14,7 @@ from zteleop.control.mixer import Ackermann, Mixer, Wheels
 from zteleop.control.mux import HEARD_LATE, Claim, Mux, Source
 from zteleop.control.proof import LAPSE, NEVER, Proof, Prover
 from zteleop.control.servo import Servo
-from zteleop.control.stop import Latch, describe
+from zteleop.control.stop import Latch, stopped_by
 from zteleop.messages import Beat, Pwm, State, Stop, Twist
 
 DONKEYCAR = {
@@ -184,7 +184,7 @@ class Drive:
         """Obey a stop or a release of one; True when that changed anything."""
         changed = self.latch.obey(said)
         if changed and self.latch.stops:
-            self.hold("stop", "stopped", describe(self.latch.stops), now)
+            self.hold("stop", "stopped", stopped_by(self.latch.stops), now)
         elif changed:  # a release, perhaps of a stop that never arrived
             self.holds.drop("stop")
             self.mux.clear()

@@ -22,8 +22,8 @@ def layers(drive: Drive, step: Step, chip: Evidence, now: float) -> list[Layer]:
     """Return the sentences, from the operator to the wheels."""
     return [
         Layer("operator", _operator(step, now)),
-        Layer("mux", _mux(drive, step, now)),
         Layer("gate", _gate(drive, now)),
+        Layer("mux", _mux(drive, step, now)),
         Layer("rest", _rest(drive, step, now)),
         Layer("cap", _cap(drive, step)),
         Layer("limiter", _limiter(drive, step)),

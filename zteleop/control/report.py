@@ -7,12 +7,12 @@ from zteleop.control.refusals import Turned
 from zteleop.messages import DriveStatus, Refusals, Refused, Vehicle
 
 
-def describe(settings: DriveSettings, tick_us: float, ready: bool = True) -> Vehicle:
+def to_vehicle(settings: DriveSettings, tick_us: float, ready: bool = True) -> Vehicle:
     """Return what an input must know of a robot; `tick_us` is the chip's."""
     mixer, limits = settings.mixer, settings.limits
     return Vehicle(
         kind="ackermann" if mixer.max_steering_angle else "differential",
-        channels=[servo.describe(name, tick_us) for name, servo in settings.servos.items()],
+        channels=[servo.to_channel(name, tick_us) for name, servo in settings.servos.items()],
         tick_us=tick_us,
         ready=ready,
         max_speed=limits.speed_of(mixer),

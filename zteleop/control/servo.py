@@ -37,7 +37,7 @@ class Servo(Struct, frozen=True, forbid_unknown_fields=True):
         towards_max = span * (self.max_us - self.neutral_us) > 0
         return span / (self.max_us - self.neutral_us if towards_max else self.neutral_us - self.min_us)
 
-    def describe(self, name: str, tick_us: float) -> Channel:
+    def to_channel(self, name: str, tick_us: float) -> Channel:
         """Return the calibration in microseconds and in ticks of the chip."""
         widths = (self.min_us, self.neutral_us, self.max_us)
         return Channel(name, self.channel, *widths, *(round(width / tick_us) for width in widths))

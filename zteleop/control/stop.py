@@ -86,7 +86,7 @@ def whose(stops: Sequence[Stop]) -> str:
     return " and ".join([", ".join(named[:-1]), named[-1]] if len(named) > 1 else named)
 
 
-def describe(stops: Sequence[Stop]) -> str:
+def stopped_by(stops: Sequence[Stop]) -> str:
     """Return the stops in force in words."""
     if len(stops) == 1:
         who, why = stops[0].by or "somebody", f": {stops[0].why}" if stops[0].why else ""

@@ -119,7 +119,7 @@ class Faults:
             _write(self._file, _read(self._file)._replace(**figures))
 
 
-def take(path: str, length: int = 0) -> Fault | None:
+def next_fault(path: str, length: int = 0) -> Fault | None:
     """Count down and return what a transfer of `length` bytes to write meets, if anything."""
     file = os.open(path, os.O_RDWR)  # opened anew: a lock belongs to an opening, and parents share theirs
     try:

@@ -11,7 +11,7 @@ from zteleop.errors import DeviceError
 
 SMBUS_BLOCK = 32
 ATTEMPTS = 3
-PATIENCE = 0.05
+TRIED_FOR = 0.05
 """s; a transfer that takes so long to fail is not tried again: others wait for whoever waits for it"""
 T = TypeVar("T")
 
@@ -92,6 +92,6 @@ def _again(transfer: Callable[[], T]) -> T:
         try:
             return transfer()
         except OSError:
-            if attempt == ATTEMPTS or time.monotonic() - began > PATIENCE:
+            if attempt == ATTEMPTS or time.monotonic() - began > TRIED_FOR:
                 raise
     raise AssertionError

@@ -14,7 +14,7 @@ from msgspec import Meta, Struct
 
 from zteleop.drivers.chip import SIZE, Chip
 from zteleop.drivers.chip_file import FAULTS, ChipMemory, map_file
-from zteleop.drivers.faults import Fault, cut, take
+from zteleop.drivers.faults import Fault, cut, next_fault
 from zteleop.drivers.i2c import EREMOTEIO, Block
 from zteleop.drivers.pca9685 import Pca9685, Pca9685Settings
 from zteleop.drivers.registers import OSCILLATOR_HZ, prescale
@@ -48,14 +48,14 @@ class SimulatedI2C:
     def transfer(self, address: int, blocks: Sequence[Block]) -> None:
         """Write all blocks in one transaction, or raise OSError with the kernel's errno."""
         self._select(address)
-        if self._troubled() and (fault := take(self.name, sum(len(data) for _, data in blocks))):
+        if self._troubled() and (fault := next_fault(self.name, sum(len(data) for _, data in blocks))):
             self.chip.write(cut(blocks, fault.after_bytes))
             _fail(fault)
         self.chip.write(blocks)
 
     def read_i2c_block_data(self, address: int, register: int, length: int) -> list[int]:
         self._select(address)
-        if self._troubled() and (fault := take(self.name)):
+        if self._troubled() and (fault := next_fault(self.name)):
             _fail(fault)
         return list(self.chip.read(register, length))
 

@@ -1,14 +1,9 @@
-"""Where acts come from: one file per device, one line below."""
+"""Where acts come from: one file per device."""
 
 from typing import Literal, Protocol, Self
 
 from zteleop.control.stick import Speeds, Stick
 from zteleop.messages import Vehicle
-
-INPUTS = {
-    "keyboard": ("zteleop.inputs.keyboard", "drive with the keys of this terminal"),
-}
-"""Name to (module, one line of help)."""
 
 
 class Input(Protocol):

@@ -49,7 +49,7 @@ class Lesson:
         """What was learned, once everything is."""
         return convert(self._learned, GamepadSettings)
 
-    def take(self, moved: Moved) -> None:
+    def heed(self, moved: Moved) -> None:
         """Take in what moved; another pad begins anew."""
         if moved == FORGET:
             self._begin_anew()

@@ -9,12 +9,12 @@ from zteleop.control.stick import Speeds, Stick
 from zteleop.errors import DeviceError
 from zteleop.inputs.held_keys import FIRST, REPEATING, Block, HeldKeys
 from zteleop.inputs.keymap import DIRECTIONS, bindings
-from zteleop.inputs.keys import KeyParser
 from zteleop.inputs.levers import Axis, Levers, Steps
 from zteleop.messages import Vehicle
+from zteleop.terminal.keys import KeyParser
 
 if TYPE_CHECKING:
-    from zteleop.inputs.terminal import Terminal
+    from zteleop.terminal.terminal import Terminal
 
 IDLE_LIMIT = 5.0
 """s without a key until neutral; the robot may shorten it."""
@@ -222,7 +222,7 @@ ACTIONS: dict[str, Callable[[Keyboard], None]] = {
 def open_terminal() -> "Terminal":
     """Return the terminal the program runs in; DeviceError where there is none."""
     try:
-        from zteleop.inputs.terminal import Terminal
+        from zteleop.terminal.terminal import Terminal
     except ImportError as error:
         raise DeviceError(
             f"expected a terminal with Unix modes, found a Python without {error.name}; "

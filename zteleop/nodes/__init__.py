@@ -1,1 +1,1 @@
-"""What runs: one loop per file."""
+"""What runs: one loop per file, and the halves of those that are two."""

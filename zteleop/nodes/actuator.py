@@ -1,7 +1,5 @@
 """Commands in, pulses out: the only process that moves the robot, under a watchdog that may end it."""
 
-import secrets
-
 from zteleop.bus import clock
 from zteleop.bus.node import Node
 from zteleop.bus.subscription import Received
@@ -11,11 +9,15 @@ from zteleop.control.drive import Drive, DriveSettings
 from zteleop.control.explain import layers
 from zteleop.control.proof import called
 from zteleop.control.refusals import RefusedSenders
-from zteleop.control.report import describe, refusals, status
+from zteleop.control.report import refusals, status, to_vehicle
 from zteleop.control.standing import NOBODY, Standing, go_on, stand
-from zteleop.control.stop import describe as describe_stop
+from zteleop.control.stop import stopped_by
 from zteleop.drivers import PulseDriver
 from zteleop.errors import DeviceError, MessageError
+from zteleop.machine.health import LOOK_EVERY, Health
+from zteleop.machine.ids import new_id
+from zteleop.machine.link import UNWATCHED, ActuatorEnd, Report
+from zteleop.machine.stop_file import StopFile
 from zteleop.messages import (
     Beat,
     DriveStatus,
@@ -25,11 +27,8 @@ from zteleop.messages import (
     Vehicle,
     Why,
 )
-from zteleop.nodes.health import LOOK_EVERY, Health
-from zteleop.nodes.journal import Journal
-from zteleop.nodes.link import UNWATCHED, ActuatorEnd, Report
 from zteleop.nodes.output import Output
-from zteleop.nodes.stop_file import StopFile
+from zteleop.recording.journal import Journal
 
 PERIOD = 0.02
 AT_MOST_EVERY = 0.005
@@ -68,7 +67,7 @@ class Actuator:
         self._link, self._stop_file, self._journal = link, stop_file, journal
         self._health = health
         now = self._since = clock.now()
-        self._drive = Drive(settings, driver.tick_us, standing.epoch if standing else _epoch(), now)
+        self._drive = Drive(settings, driver.tick_us, standing.epoch if standing else new_id(), now)
         self._output = Output(driver, self._drive, self._tell_chip)
         # Whoever drove had an ESC that was armed, and the watchdog has kept the chip at neutral since.
         self._output.start(now, arm=standing is None or standing.source == NOBODY)
@@ -108,7 +107,7 @@ class Actuator:
                 self._node.every(LOOK_EVERY)(lambda: self._drive.cap.bear(health.look(clock.now())))
             self._node.log.info(f"obeys {self._node.robot}")
             if held := self._drive.latch.stops:
-                self._node.log.warn(describe_stop(held))
+                self._node.log.warn(stopped_by(held))
             self._journal.event("start", robot=self._node.robot, epoch=self._drive.gate.epoch)
             if why := self._drive.interruption:
                 self._node.log.warn(f"{why}; whoever drove goes on with the next act")
@@ -206,7 +205,7 @@ class Actuator:
             self._drive.interrupt(words, now, limit)
         else:
             self._node.log.warn(f"{words}; whoever drove must let go first")
-            self._drive.restart(_epoch(), now)
+            self._drive.restart(new_id(), now)
             self._since = now
         self._journal.event("interruption", why=words)
 
@@ -257,7 +256,9 @@ class Actuator:
         self._statuses.publish(status(self._drive, self._step, self._output.evidence, self._stop_file.unkept))
 
     def _describe(self) -> None:
-        self._vehicles.publish(describe(self._settings, self._driver.tick_us, self._step.state != "starting"))
+        self._vehicles.publish(
+            to_vehicle(self._settings, self._driver.tick_us, self._step.state != "starting")
+        )
         self._whys.publish(Why(layers(self._drive, self._step, self._output.evidence, clock.now())))
         self._tell_refused(clock.now())
 
@@ -266,7 +267,3 @@ class Actuator:
         refused = self._refused.news(now)
         if refused is not None:
             self._refusals.publish(refusals(self._drive, refused, now))
-
-
-def _epoch() -> int:
-    return secrets.randbits(53)

@@ -14,11 +14,11 @@ from pathlib import Path
 from zteleop.bus import clock
 from zteleop.bus.node import Node
 from zteleop.bus.tap import Tap
-from zteleop.nodes import blackbox_file
-from zteleop.nodes.blackbox_file import FORMAT, Header, Reason, seconds
-from zteleop.nodes.recorder import FAREWELL
-from zteleop.nodes.ring import Ring, Snapshot
-from zteleop.nodes.triggers import WATCHDOG, Trigger, Triggers
+from zteleop.machine.sidecar import LAST_WORD
+from zteleop.recording import blackbox_file
+from zteleop.recording.blackbox_file import FORMAT, Header, Reason, seconds
+from zteleop.recording.ring import Ring, Snapshot
+from zteleop.recording.triggers import WATCHDOG, Trigger, Triggers
 
 LISTEN_EVERY = 0.01
 AFTERMATH = 1.0
@@ -118,7 +118,7 @@ class BlackBox:
         del self._waiting[100:]
 
     def _write(self) -> None:
-        self._writer.write(self._ring.take(), self._waiting)
+        self._writer.write(self._ring.snapshot(), self._waiting)
         self._waiting, self._due, self._written = [], float("inf"), clock.now()
 
     def _complain(self) -> None:
@@ -128,7 +128,7 @@ class BlackBox:
 
     def _hear_watchdog(self) -> None:
         """Take its last word, or its end without one."""
-        word = os.read(self._ear, len(FAREWELL))
+        word = os.read(self._ear, len(LAST_WORD))
         if not word and not self._parted:
             self._note(Trigger(clock.now(), WATCHDOG, "it said no farewell"))
         self._parted = True

@@ -8,8 +8,8 @@ from zteleop.control.drive import DriveSettings
 from zteleop.control.judge import GRACE, Judge
 from zteleop.control.stop import MERGED, Latch
 from zteleop.errors import MessageError
+from zteleop.machine.stop_file import UNREADABLE, StopFile
 from zteleop.messages import Beat, Stop
-from zteleop.nodes.stop_file import UNREADABLE, StopFile
 
 DEAF_AFTER = 0.5
 """s without a beat of the actuator's epoch."""

@@ -20,7 +20,7 @@ from zteleop.messages import (
     TwistStamped,
     Vehicle,
 )
-from zteleop.nodes.stopping import Stopping, person
+from zteleop.nodes.stop_request import Stopping, person
 
 PERIOD = 0.05
 NEUTRALS = 3

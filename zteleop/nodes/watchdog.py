@@ -1,13 +1,12 @@
 """The process above the actuator: it believes only what it hears and reads itself."""
 
-import secrets
 import signal
 import time
 from collections.abc import Callable
 from contextlib import suppress
 from types import FrameType
 
-from zteleop.bus import clock, signals
+from zteleop.bus import clock
 from zteleop.bus.lane.ear import Ear, Heard
 from zteleop.bus.lane.wire import Answered
 from zteleop.bus.node import Node
@@ -16,13 +15,14 @@ from zteleop.control.judge import GRACE, Judge
 from zteleop.control.standing import Standing
 from zteleop.drivers import PulseDriver
 from zteleop.errors import DeviceError
+from zteleop.machine import signals, systemd
+from zteleop.machine.child import Child
+from zteleop.machine.ids import new_id
+from zteleop.machine.link import CUT, HEARS, HEARS_NOT, UNWATCHED
+from zteleop.machine.sidecar import Recorder
+from zteleop.machine.stop_file import StopFile
 from zteleop.messages import Confirmed, Stop, WatchdogStatus
-from zteleop.nodes import service
-from zteleop.nodes.child import Child
-from zteleop.nodes.link import CUT, DEAF, HEARS, UNWATCHED
 from zteleop.nodes.overhear import Overhearing
-from zteleop.nodes.recorder import Recorder
-from zteleop.nodes.stop_file import StopFile
 
 PERIOD = 0.02
 BEAT_EVERY = LOOK_EVERY = 0.05
@@ -44,8 +44,8 @@ YIELD = 5
 """times as long as a look took, until the next one"""
 _LONGEST = 200
 """characters of a reason in an answer"""
-FAREWELL = 0.25
-REST_PATIENCE = 2.0
+ENDS_WITHIN = 0.25
+RESTS_WITHIN = 2.0
 
 
 class Watchdog:
@@ -137,7 +137,7 @@ class Watchdog:
         self._cut(False)
         for stop in self._ears.stops:
             self._tell_stop(stop)
-        service.notify("READY=1")
+        systemd.notify("READY=1")
 
     def _tick(self) -> None:
         """Take in what the bus says, and notice silence."""
@@ -175,9 +175,9 @@ class Watchdog:
         report = self._child.newest
         hears = self._ears.hears(report.standing.epoch if report else None, clock.now())
         if self._child.link:
-            word = HEARS if hears else DEAF
+            word = HEARS if hears else HEARS_NOT
             self._child.link.say(CUT[word] if self._pin_cuts else word)
-        service.notify("WATCHDOG=1")
+        systemd.notify("WATCHDOG=1")
 
     def _look(self) -> None:
         """Read the chip; what moves without a reason is stopped, and what does not obey that is killed."""
@@ -196,7 +196,7 @@ class Watchdog:
             self._look_after = began + YIELD * self._look_took
         self._seen, self._blind, self._trouble = clock.now(), 0, ""
         if why and not self._judge.stopped:
-            self._engage(Stop(engaged=True, id=secrets.randbits(53), by="the watchdog", why=why))
+            self._engage(Stop(engaged=True, id=new_id(), by="the watchdog", why=why))
         elif why:
             self._fell(why, 0.0)
         elif self._is_cut and self._child.ready and not self._judge.moving:
@@ -311,14 +311,14 @@ class Watchdog:
 
     def _finish(self) -> None:
         """Leave last, after neutral."""
-        service.notify("STOPPING=1")
+        systemd.notify("STOPPING=1")
         self._child.ask_to_end()
-        give_up = clock.now() + FAREWELL
+        give_up = clock.now() + ENDS_WITHIN
         while not self._child.gone and clock.now() < give_up:
             time.sleep(PERIOD)
             self._rest()  # it may hang in its end, with a chip that did not take its neutral
         self._child.end(0.0)
-        give_up = clock.now() + (GRACE if self._never_stepped else REST_PATIENCE)
+        give_up = clock.now() + (GRACE if self._never_stepped else RESTS_WITHIN)
         self._rest()
         while not self._at_rest and clock.now() < give_up:
             time.sleep(PERIOD)

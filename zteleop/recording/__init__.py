@@ -1,1 +1,1 @@
-"""What is kept: recordings as MCAP files, which every tool for robots opens."""
+"""What is kept: journal, black box, and recordings as MCAP files, which every tool for robots opens."""

@@ -5,10 +5,10 @@ from zteleop.bus import codec, heard
 from zteleop.bus.heard import Heard
 from zteleop.bus.subscription import Subscription
 from zteleop.control.drive import DriveSettings
-from zteleop.control.report import describe
+from zteleop.control.report import to_vehicle
 from zteleop.messages import Beat, Refusals, Vehicle
 
-CAR = describe(DriveSettings(), 4.08)
+CAR = to_vehicle(DriveSettings(), 4.08)
 
 
 @pytest.fixture
@@ -101,7 +101,7 @@ def test_it_waits_for_a_robot_that_is_not_there_once_and_not_for_ever(
 ) -> None:
     start = clock.time
     robot.wait()
-    assert clock.time == pytest.approx(start + heard.PATIENCE, abs=0.01)
+    assert clock.time == pytest.approx(start + heard.HEARD_WITHIN, abs=0.01)
     naps.clear()
     robot.wait()
     assert naps == []

@@ -6,10 +6,11 @@ import pytest
 import zenoh
 from unit.bus.fakes import Clock, Session, ZenohPublisher, sample
 
-from zteleop.bus import codec, presence, voice
+from zteleop.bus import codec, presence
 from zteleop.bus.heard import Heard
 from zteleop.bus.node import Node
 from zteleop.errors import ConfigError
+from zteleop.machine import stderr
 from zteleop.messages import Beat, Int16MultiArray, Log, Odometry, Pwm, String, Twist, TwistStamped
 
 HEARD = ("beat", "vehicle", "refusals")
@@ -164,7 +165,7 @@ def test_what_is_dropped_is_said_once_a_second_for_each_key(
     log = codec.decode(logs[0].payload, logs[0].encoding, codec.decoders([Log]))
     words = "robot/archangel/odom: dropped: expected nav_msgs/msg/Odometry, found 'std_msgs/msg/String'"
     assert log.msg == words
-    voice.flush()
+    stderr.flush()
     assert capfd.readouterr().err == f"nose: warning: {words}\n"
 
 

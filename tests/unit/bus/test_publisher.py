@@ -10,7 +10,7 @@ from zteleop.bus.subscription import Subscription
 from zteleop.control.drive import DriveSettings
 from zteleop.control.mixer import Differential
 from zteleop.control.proof import NEVER, Proof, Prover
-from zteleop.control.report import describe
+from zteleop.control.report import to_vehicle
 from zteleop.control.servo import Servo
 from zteleop.errors import MessageError
 from zteleop.messages import (
@@ -28,8 +28,8 @@ from zteleop.messages import (
     Vehicle,
 )
 
-CAR = describe(DriveSettings(), 4.08)
-TANK = describe(
+CAR = to_vehicle(DriveSettings(), 4.08)
+TANK = to_vehicle(
     DriveSettings(mixer=Differential(), servos={"left": Servo(channel=0), "right": Servo(channel=1)}), 4.08
 )
 KINDS = "Twist or TwistStamped or Pwm or Int16MultiArray"

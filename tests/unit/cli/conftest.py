@@ -4,16 +4,6 @@ from collections.abc import Iterator
 from contextlib import suppress
 
 import pytest
-from unit.bus.fakes import Clock
-
-from zteleop.bus import clock as bus_clock
-
-
-@pytest.fixture
-def clock(monkeypatch: pytest.MonkeyPatch) -> Clock:
-    clock = Clock()
-    monkeypatch.setattr(bus_clock, "now", clock.now)
-    return clock
 
 
 @pytest.fixture(params=["buffered", "unbuffered"])

@@ -9,7 +9,7 @@ from zteleop.bus import codec
 from zteleop.bus.tap import Raw
 from zteleop.cli import main
 from zteleop.messages import DriveStatus, String
-from zteleop.nodes.blackbox_file import Header, Reason, utc, write
+from zteleop.recording.blackbox_file import Header, Reason, utc, write
 
 AT = 100.0
 WHY = "keyboard has been silent for 0.3 s"

@@ -9,9 +9,9 @@ from types import SimpleNamespace
 import pytest
 
 from zteleop import cli
-from zteleop.bus import signals
 from zteleop.cli import run
 from zteleop.errors import BusError, ConfigError, DeviceError, MessageError
+from zteleop.machine import signals
 
 Verb = Callable[..., int]
 

@@ -15,7 +15,7 @@ from zteleop.cli.run import run_verb
 from zteleop.control.stop import Latch
 from zteleop.errors import BusError
 from zteleop.messages import DriveStatus, Stop
-from zteleop.nodes.stopping import REPEAT
+from zteleop.nodes.stop_request import REPEAT
 
 GLANCE = 0.01
 

@@ -6,7 +6,7 @@ import pytest
 from unit.nodes.fakes import Node as Base
 
 from zteleop.cli import why
-from zteleop.cli.why import describe, explain
+from zteleop.cli.why import explain, state_of
 from zteleop.errors import BusError
 from zteleop.messages import DriveStatus, Layer, WatchdogStatus, Why
 
@@ -69,7 +69,7 @@ def test_nobody_there_is_an_error_in_words() -> None:
     silent = node()
     with pytest.raises(BusError, match=r"no actuator of archangel is heard within 2 s; is it on\?"):
         explain(silent)
-    assert silent.patience == why.PATIENCE
+    assert silent.patience == why.HEARD_WITHIN
 
 
 @pytest.mark.parametrize(
@@ -83,7 +83,7 @@ def test_nobody_there_is_an_error_in_words() -> None:
     ],
 )
 def test_what_a_watchdog_sees_in_a_line(status: WatchdogStatus, words: str) -> None:
-    line = describe(status)
+    line = state_of(status)
     assert words in line
     assert "1 restarts" not in line
     assert "\n" not in line

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from zteleop.control.drive import DriveSettings
 from zteleop.control.mixer import Differential
 from zteleop.control.motion.pose import Pose2D
-from zteleop.control.report import describe
+from zteleop.control.report import to_vehicle
 from zteleop.control.servo import Servo
 from zteleop.messages import Twist, Vehicle
 from zteleop.sim import make_vehicle
@@ -28,7 +28,7 @@ class Robot:
 
     @property
     def vehicle(self) -> Vehicle:
-        return describe(self._settings, 4.08)
+        return to_vehicle(self._settings, 4.08)
 
     @property
     def pose(self) -> Pose2D:

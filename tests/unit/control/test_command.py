@@ -2,7 +2,7 @@ import pytest
 
 from zteleop.control.command import neutral, to_command
 from zteleop.control.drive import DriveSettings
-from zteleop.control.report import describe
+from zteleop.control.report import to_vehicle
 from zteleop.errors import MessageError
 from zteleop.messages import (
     Header,
@@ -59,7 +59,7 @@ def test_what_commands_nothing_is_refused_in_words(message: Message, words: str)
     ],
 )
 def test_each_type_of_command_has_a_neutral(kind: type[Message], command: Message) -> None:
-    assert neutral(kind, describe(DriveSettings(), 4.08)) == command
+    assert neutral(kind, to_vehicle(DriveSettings(), 4.08)) == command
 
 
 def test_pulses_of_an_unknown_vehicle_have_none() -> None:

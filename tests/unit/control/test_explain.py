@@ -28,8 +28,8 @@ def says(robot: Robot, confirmed: Confirmed = "", age: float = 0.0) -> dict[str,
 def test_at_rest_every_layer_says_so_from_the_operator_to_the_wheels() -> None:
     assert list(says(Robot()).items()) == [
         ("operator", "nobody operates"),
-        ("mux", "no claim counts"),
         ("gate", "refuses nobody"),
+        ("mux", "no claim counts"),
         ("rest", "idle: nobody drives"),
         ("cap", "3 m/s: nobody drives"),
         ("limiter", "nothing to limit"),

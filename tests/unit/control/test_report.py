@@ -4,7 +4,7 @@ from unit.control.robot import FORWARD, TICK_US, Robot
 from zteleop.control.drive import DriveSettings, Step
 from zteleop.control.limiter import Limits
 from zteleop.control.mixer import Differential
-from zteleop.control.report import describe, status
+from zteleop.control.report import status, to_vehicle
 from zteleop.control.servo import Servo
 from zteleop.messages import DriveStatus, Pwm, Twist
 
@@ -62,9 +62,9 @@ def test_status_names_the_stop_in_force_so_that_it_can_be_released() -> None:
 
 
 def test_a_vehicle_is_described_within_its_limits() -> None:
-    car = describe(DriveSettings(limits=Limits(speed=1.0, turn=2.0)), TICK_US, ready=False)
+    car = to_vehicle(DriveSettings(limits=Limits(speed=1.0, turn=2.0)), TICK_US, ready=False)
     assert (car.kind, car.max_speed, car.max_turn, car.ready) == ("ackermann", 1.0, 2.0, False)
     assert [(c.name, c.neutral_ticks) for c in car.channels] == [("throttle", 370), ("steering", 375)]
     servos = {"left": Servo(channel=0), "right": Servo(channel=1)}
-    tank = describe(DriveSettings(mixer=Differential(), servos=servos), TICK_US)
+    tank = to_vehicle(DriveSettings(mixer=Differential(), servos=servos), TICK_US)
     assert (tank.kind, tank.max_turn, tank.ready) == ("differential", pytest.approx(10.0), True)

@@ -32,7 +32,7 @@ def test_neutral_outside_the_ends_is_refused(neutral: float) -> None:
 
 
 def test_donkeycars_calibration_in_ticks_at_60_hz() -> None:
-    steering = DONKEYCAR["steering"].describe("steering", 4.08)
-    throttle = DONKEYCAR["throttle"].describe("throttle", 4.08)
+    steering = DONKEYCAR["steering"].to_channel("steering", 4.08)
+    throttle = DONKEYCAR["throttle"].to_channel("throttle", 4.08)
     assert (steering.min_ticks, steering.neutral_ticks, steering.max_ticks) == (290, 375, 460)
     assert (throttle.min_ticks, throttle.neutral_ticks, throttle.max_ticks) == (220, 370, 500)

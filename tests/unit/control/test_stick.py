@@ -3,13 +3,13 @@ import pytest
 from zteleop.control import curvature
 from zteleop.control.drive import DriveSettings
 from zteleop.control.mixer import Ackermann, Differential
-from zteleop.control.report import describe
+from zteleop.control.report import to_vehicle
 from zteleop.control.servo import Servo
 from zteleop.control.stick import Speeds, Stick, tightest, to_pwm, to_twist
 from zteleop.messages import Pwm
 
-CAR = describe(DriveSettings(), 4.08)
-TANK = describe(
+CAR = to_vehicle(DriveSettings(), 4.08)
+TANK = to_vehicle(
     DriveSettings(mixer=Differential(), servos={"left": Servo(channel=0), "right": Servo(channel=1)}), 4.08
 )
 

@@ -1,4 +1,4 @@
-from zteleop.control.stop import MERGED, PRESSERS, REMEMBERED, Latch, describe, is_persons, whose
+from zteleop.control.stop import MERGED, PRESSERS, REMEMBERED, Latch, is_persons, stopped_by, whose
 from zteleop.messages import Stop
 
 
@@ -123,15 +123,15 @@ def test_the_stop_in_force_is_known_however_many_were_before() -> None:
 
 
 def test_a_stop_in_words_says_how_to_go_on() -> None:
-    assert describe([stop(1, why="a cat")]) == (
+    assert stopped_by([stop(1, why="a cat")]) == (
         "stopped by ann: a cat; zteleop stop --release, then begin from neutral"
     )
-    assert describe([stop(1, by="")]).startswith("stopped by somebody; ")
+    assert stopped_by([stop(1, by="")]).startswith("stopped by somebody; ")
 
 
 def test_several_stops_are_told_by_name_and_a_crowd_by_number() -> None:
     both = [stop(1, "ann", "a cat"), stop(2, "bob")]
-    assert describe(both) == (
+    assert stopped_by(both) == (
         "stopped by ann (a cat) and bob; each releases their own, then begin from neutral"
     )
     assert whose([stop(number, f"p{number}") for number in range(9)]) == "p0, p1, p2 and 6 more"

@@ -4,7 +4,7 @@ from pathlib import Path
 import pytest
 
 from zteleop.drivers.chip import POWER_UP
-from zteleop.drivers.faults import Area, Fault, Faults, cut, take
+from zteleop.drivers.faults import Area, Fault, Faults, cut, next_fault
 from zteleop.drivers.i2c import EREMOTEIO
 from zteleop.drivers.simulated import SimulatedI2C, open_chip, open_registers
 from zteleop.errors import ConfigError
@@ -35,7 +35,7 @@ def test_each_transfer_meets_one_and_counts_it_down(path: str) -> None:
         faults.nack(2)
         faults.tear(1, after_bytes=3)
         faults.hang(1, ms=7)
-        met = [take(path, length=4) for _ in range(5)]
+        met = [next_fault(path, length=4) for _ in range(5)]
         assert faults.pending() == Area(after_bytes=3, ms=7)
     nack = Fault(EREMOTEIO)
     assert met == [Fault(errno.ETIMEDOUT, ms=7), nack, nack, Fault(EREMOTEIO, after_bytes=3), None]
@@ -44,9 +44,9 @@ def test_each_transfer_meets_one_and_counts_it_down(path: str) -> None:
 def test_every_nth_transfer_fails_until_it_is_none(path: str) -> None:
     with Faults(path) as faults:
         faults.every(3)
-        assert [bool(take(path)) for _ in range(7)] == [False, False, True] * 2 + [False]
+        assert [bool(next_fault(path)) for _ in range(7)] == [False, False, True] * 2 + [False]
         faults.every(0)
-        assert [take(path) for _ in range(7)] == [None] * 7
+        assert [next_fault(path) for _ in range(7)] == [None] * 7
 
 
 @pytest.mark.parametrize(
@@ -57,14 +57,14 @@ def test_as_many_of_a_hundred_transfers_fail_as_were_asked_for(
 ) -> None:
     with Faults(path) as faults:
         faults.at_random(percent)
-        assert least <= sum(bool(take(path)) for _ in range(1000)) <= most
+        assert least <= sum(bool(next_fault(path)) for _ in range(1000)) <= most
 
 
 @pytest.mark.parametrize("length", [0, 3])
 def test_a_read_or_a_write_that_is_short_enough_is_not_torn(path: str, length: int) -> None:
     with Faults(path) as faults:
         faults.tear(1, after_bytes=3)
-        assert take(path, length) is None
+        assert next_fault(path, length) is None
         assert faults.pending().tear == 1
 
 

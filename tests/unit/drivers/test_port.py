@@ -6,7 +6,7 @@ from unit.drivers.wire import Wire
 
 from zteleop.drivers import port as module
 from zteleop.drivers.i2c import EREMOTEIO
-from zteleop.drivers.port import ATTEMPTS, PATIENCE, Port
+from zteleop.drivers.port import ATTEMPTS, TRIED_FOR, Port
 from zteleop.drivers.registers import MODE1, MODE2
 from zteleop.errors import DeviceError
 
@@ -60,7 +60,7 @@ def test_the_bus_is_searched_once_a_fault(wire: Wire, port: Port) -> None:
 
 @pytest.mark.parametrize("act", ["get", "set", "get_block", "write"])
 @pytest.mark.parametrize(
-    ("lasts", "attempts"), [(0.0, ATTEMPTS), (PATIENCE / 4, ATTEMPTS), (PATIENCE + 0.01, 1)]
+    ("lasts", "attempts"), [(0.0, ATTEMPTS), (TRIED_FOR / 4, ATTEMPTS), (TRIED_FOR + 0.01, 1)]
 )
 def test_what_fails_is_tried_again_at_once_but_not_on_a_slow_bus(
     wire: Wire, port: Port, monkeypatch: pytest.MonkeyPatch, act: str, lasts: float, attempts: int

@@ -17,7 +17,7 @@ class Bench:
 
     def take(self, *moved: Moved) -> None:
         for one in moved:
-            self.lesson.take(one)
+            self.lesson.heed(one)
 
     def push(self, name: str, *places: float) -> None:
         """Move a control to some places, and let it go."""

@@ -10,6 +10,8 @@ from zteleop.control.mux import Source
 from zteleop.control.proof import Proof, Prover
 from zteleop.control.standing import NOBODY, Standing
 from zteleop.errors import DeviceError
+from zteleop.machine.health import LOOK_EVERY, Health
+from zteleop.machine.link import UNWATCHED, Report, Words
 from zteleop.messages import Beat, DriveStatus, Int16MultiArray, Message, MultiArrayLayout, Pwm, Stop, Twist
 from zteleop.nodes.actuator import (
     AT_MOST_EVERY,
@@ -23,8 +25,6 @@ from zteleop.nodes.actuator import (
     Actuator,
     UnwatchedError,
 )
-from zteleop.nodes.health import LOOK_EVERY, Health
-from zteleop.nodes.link import UNWATCHED, Report, Words
 from zteleop.nodes.output import REPAIR_EVERY
 
 NEUTRAL = {0: 1509.6, 1: 1530.0}

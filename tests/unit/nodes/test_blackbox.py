@@ -9,12 +9,12 @@ from unit.nodes.fakes import Node
 
 from zteleop.bus import codec
 from zteleop.bus.tap import Raw
+from zteleop.machine.sidecar import LAST_WORD
 from zteleop.messages import DriveStatus, Message, Stop, WatchdogStatus
 from zteleop.nodes import blackbox as module
 from zteleop.nodes.blackbox import AFTERMATH, LISTEN_EVERY, PAUSE, BlackBox, Writer
-from zteleop.nodes.recorder import FAREWELL
-from zteleop.nodes.ring import Ring, Snapshot
-from zteleop.nodes.triggers import Trigger
+from zteleop.recording.ring import Ring, Snapshot
+from zteleop.recording.triggers import Trigger
 
 
 class Tap:
@@ -159,7 +159,7 @@ def test_a_watchdog_that_ends_without_a_word_is_a_reason_at_once(bench: Bench) -
 
 
 def test_a_watchdog_that_says_farewell_is_none(bench: Bench) -> None:
-    bench.part(FAREWELL)
+    bench.part(LAST_WORD)
     bench.hear_watchdog()
     assert bench.node.stopped
     bench.end()
@@ -169,7 +169,7 @@ def test_a_watchdog_that_says_farewell_is_none(bench: Bench) -> None:
 def test_a_robot_that_ends_in_good_order_writes_what_is_due(bench: Bench) -> None:
     bench.stop()
     bench.live(0.1)
-    bench.part(FAREWELL)
+    bench.part(LAST_WORD)
     bench.hear_watchdog()
     bench.end()
     assert bench.shelf.files == [(["stop"], 1)]
@@ -187,7 +187,7 @@ def test_a_signal_because_the_watchdog_is_gone_is_one(bench: Bench) -> None:
 
 
 def test_a_signal_after_the_farewell_is_none(bench: Bench) -> None:
-    bench.part(FAREWELL)
+    bench.part(LAST_WORD)
     bench.end()
     assert bench.shelf.files == []
 

@@ -7,9 +7,9 @@ from zteleop.control.judge import GRACE, Judge
 from zteleop.control.mux import Source
 from zteleop.control.proof import Proof, Prover
 from zteleop.control.standing import Standing
+from zteleop.machine.stop_file import UNREADABLE
 from zteleop.messages import Beat, Message, Pwm, Stop, String
 from zteleop.nodes.overhear import DEAF_AFTER, Overhearing
-from zteleop.nodes.stop_file import UNREADABLE
 
 PERIOD = 0.02
 PUSH = Pwm(390, 370)

@@ -4,17 +4,17 @@ from unit.nodes.fakes import Node
 
 from zteleop.control.drive import DriveSettings
 from zteleop.control.mixer import Differential
-from zteleop.control.report import describe
+from zteleop.control.report import to_vehicle
 from zteleop.control.servo import Servo
 from zteleop.control.stick import Speeds, Stick
 from zteleop.errors import BusError, ConfigError
 from zteleop.messages import DriveStatus, Log, Odometry, Pwm, Stop, Twist, Vehicle
-from zteleop.nodes.stopping import PATIENCE, REPEAT
+from zteleop.nodes.stop_request import ACKNOWLEDGED_WITHIN, REPEAT
 from zteleop.nodes.teleop import LINK_LOSS, NEWS, PERIOD, SHOW_AFTER, Teleop, View
 
-CAR = describe(DriveSettings(), 4.08)
-SLOW_CAR = describe(DriveSettings(), 4.1)
-TANK = describe(
+CAR = to_vehicle(DriveSettings(), 4.08)
+SLOW_CAR = to_vehicle(DriveSettings(), 4.1)
+TANK = to_vehicle(
     DriveSettings(mixer=Differential(), servos={"left": Servo(channel=0), "right": Servo(channel=1)}), 4.08
 )
 NEUTRAL = Pwm(375, 370)
@@ -335,7 +335,7 @@ def test_the_answer_to_a_stop_is_the_note_for_a_while(desk: Desk) -> None:
 
 def test_a_stop_that_nobody_acknowledges_stays_an_alarm_until_somebody_does(desk: Desk) -> None:
     desk.device.stop_wish = True
-    desk.tick(round((PATIENCE + NEWS + 1) / PERIOD), beats=False)
+    desk.tick(round((ACKNOWLEDGED_WITHIN + NEWS + 1) / PERIOD), beats=False)
     desk.hear_log("anything")
     desk.tick(beats=False)
     assert desk.views[-1].alarm
@@ -414,7 +414,7 @@ def test_what_was_heard_before_a_stop_does_not_answer_it(desk: Desk) -> None:
     desk.hear_state("stopped", 7)
     desk.tick()
     desk.device.stop_wish = True
-    desk.tick(round(PATIENCE / PERIOD) + 2, beats=False)
+    desk.tick(round(ACKNOWLEDGED_WITHIN / PERIOD) + 2, beats=False)
     assert desk.views[-1].alarm
 
 

@@ -14,19 +14,19 @@ from zteleop.control.judge import GRACE
 from zteleop.control.proof import Prover
 from zteleop.control.standing import Standing
 from zteleop.errors import DeviceError
+from zteleop.machine import systemd
+from zteleop.machine.link import CUT, HEARS, HEARS_NOT, UNWATCHED, Report
 from zteleop.messages import Beat, Message, Pwm, Stop, WatchdogStatus
-from zteleop.nodes import service
 from zteleop.nodes import watchdog as module
-from zteleop.nodes.link import CUT, DEAF, HEARS, UNWATCHED, Report
 from zteleop.nodes.watchdog import (
     AT_MOST,
     BLIND,
-    FAREWELL,
+    ENDS_WITHIN,
     LATE,
     LOOK_EVERY,
     LOOKS,
     PERIOD,
-    REST_PATIENCE,
+    RESTS_WITHIN,
     SILENCE,
     START,
     TELL_EVERY,
@@ -206,7 +206,7 @@ class Kennel:
 def told(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """What systemd is told."""
     told: list[str] = []
-    monkeypatch.setattr(service, "notify", told.append)
+    monkeypatch.setattr(systemd, "notify", told.append)
     return told
 
 
@@ -272,7 +272,7 @@ def test_it_says_when_it_does_not_hear_the_actuator_on_the_bus(awake: Kennel) ->
     awake.live(0.1)
     awake.child.beats = False
     awake.live(0.7)
-    assert awake.child.words[-1] == DEAF
+    assert awake.child.words[-1] == HEARS_NOT
 
 
 def test_an_actuator_that_is_well_is_left_alone(awake: Kennel) -> None:
@@ -698,7 +698,7 @@ def test_it_tries_for_two_seconds_to_leave_neutral_behind(kennel: Kennel) -> Non
     kennel.node.spin = spin
     began = kennel.clock.time
     kennel.dog.run()
-    assert kennel.clock.time - began == pytest.approx(0.5 + REST_PATIENCE, abs=2 * PERIOD)
+    assert kennel.clock.time - began == pytest.approx(0.5 + RESTS_WITHIN, abs=2 * PERIOD)
     assert kennel.hand.log[-1] == "close"
     assert kennel.enabled[-1] is False
 
@@ -724,8 +724,8 @@ def test_while_an_actuator_hangs_in_its_end_neutral_is_written_again_and_again(k
     kennel.node.spin = spin
     began = kennel.clock.time
     kennel.dog.run()
-    assert kennel.clock.time - began == pytest.approx(0.5 + FAREWELL, abs=2 * PERIOD)
-    assert kennel.hand.log.count("write") > FAREWELL / PERIOD
+    assert kennel.clock.time - began == pytest.approx(0.5 + ENDS_WITHIN, abs=2 * PERIOD)
+    assert kennel.hand.log.count("write") > ENDS_WITHIN / PERIOD
 
 
 def test_a_chip_that_was_never_there_is_not_waited_for_long(kennel: Kennel) -> None:
@@ -792,7 +792,7 @@ def test_beats_of_the_one_that_is_gone_are_not_the_next_ones(awake: Kennel) -> N
     awake.child.frozen, awake.child.beats = False, False
     awake.child.words.clear()
     awake.live(0.2)
-    assert set(awake.child.words) == {DEAF}
+    assert set(awake.child.words) == {HEARS_NOT}
 
 
 PRESSED = Stop(True, 7, "ann@desk", "a cat")

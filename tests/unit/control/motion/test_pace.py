@@ -6,15 +6,15 @@ import pytest
 from zteleop.control.drive import DriveSettings
 from zteleop.control.mixer import Differential
 from zteleop.control.motion import pace
-from zteleop.control.report import describe
+from zteleop.control.report import to_vehicle
 from zteleop.control.servo import Servo
 from zteleop.messages import Twist, Vehicle
 
 MIXER = Differential(track=0.2, max_speed=0.4)
-TANK = describe(
+TANK = to_vehicle(
     DriveSettings(mixer=MIXER, servos={"left": Servo(channel=0), "right": Servo(channel=1)}), 4.08
 )
-CAR = describe(DriveSettings(), 4.08)
+CAR = to_vehicle(DriveSettings(), 4.08)
 
 
 def test_a_car_has_a_least_radius_and_others_turn_on_the_spot() -> None:

@@ -1,0 +1,81 @@
+import signal
+from collections.abc import Callable
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from zteleop.machine import signals
+
+
+class Table(dict):
+    """The process's signal handlers, as far as a test is concerned."""
+
+    def __init__(self) -> None:
+        super().__init__(dict.fromkeys(signals.ENDING, signal.SIG_DFL))
+        self[signal.SIGINT] = signal.default_int_handler
+
+
+@pytest.fixture
+def handlers(monkeypatch: pytest.MonkeyPatch) -> Table:
+    table = Table()
+    monkeypatch.setattr(signals, "_raised", float("-inf"))
+    monkeypatch.setattr(signal, "getsignal", table.__getitem__)
+    monkeypatch.setattr(signal, "signal", table.__setitem__)
+    return table
+
+
+def test_every_ending_signal_unwinds_and_is_given_back(handlers: Table) -> None:
+    before = Table()
+    undo = signals.unwind()
+    assert set(signals.ENDING) == {signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT}
+    assert all(callable(handler) and handler not in before.values() for handler in handlers.values())
+    undo()
+    assert handlers == before
+
+
+@pytest.mark.parametrize(
+    ("number", "ending"),
+    [
+        (signal.SIGINT, KeyboardInterrupt()),
+        (signal.SIGTERM, SystemExit(143)),
+        (signal.SIGHUP, SystemExit(129)),
+    ],
+)
+def test_a_signal_raises_and_a_second_one_does_not_disturb_for_a_while(
+    handlers: Table, number: int, ending: BaseException, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    signals.unwind()
+    with pytest.raises(type(ending)) as error:
+        handlers[number](number, None)
+    assert error.value.args == ending.args
+    for again in signals.ENDING:
+        handlers[again](again, None)
+    monkeypatch.setattr(signals, "UNDISTURBED", 0.0)
+    with pytest.raises(type(ending)):
+        handlers[number](number, None)
+
+
+@pytest.mark.parametrize("theirs", [signal.SIG_IGN, lambda number, frame: None])
+def test_what_somebody_handles_already_stays_theirs(handlers: Table, theirs: Any) -> None:
+    handlers[signal.SIGTERM] = theirs
+    undo = signals.unwind()
+    assert handlers[signal.SIGTERM] is theirs
+    undo()
+    assert handlers[signal.SIGTERM] is theirs
+
+
+def test_within_itself_it_changes_nothing(handlers: Table) -> None:
+    outer: Callable[[], None] = signals.unwind()
+    ours = dict(handlers)
+    signals.unwind()()
+    assert handlers == ours
+    outer()
+
+
+def test_only_the_main_thread_may_handle_signals(handlers: Table, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(
+        signals, "threading", SimpleNamespace(current_thread=lambda: 1, main_thread=lambda: 2)
+    )
+    signals.unwind()()
+    assert handlers == Table()

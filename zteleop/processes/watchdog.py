@@ -1,0 +1,118 @@
+"""The watchdog: `zteleop actuator` is this program, which starts the others."""
+
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, closing, contextmanager
+
+import msgspec
+
+from zteleop import config
+from zteleop.bus import presence
+from zteleop.bus.lane.ear import Ear
+from zteleop.bus.node import Node
+from zteleop.bus.session import ROBOT_ENDPOINT, BusSettings, open_session
+from zteleop.config import Config
+from zteleop.drivers import PulseDriver, output_enable
+from zteleop.drivers.output_enable import OutputEnable
+from zteleop.errors import DeviceError
+from zteleop.machine import realtime
+from zteleop.machine.child import Child
+from zteleop.machine.sidecar import Recorder
+from zteleop.machine.stop_file import StopFile
+from zteleop.messages import WatchdogStatus
+from zteleop.nodes.watchdog import Watchdog
+from zteleop.processes import PROGRAMS
+
+PROGRAM = PROGRAMS["watchdog"]
+LARGEST = 2**20
+"""bytes of a message that passes a robot's door: whoever sends more would hold up the commands of others."""
+LONGEST_PLACE = 70
+"""characters of a folder for the private socket, whose whole path may have a hundred"""
+SPEAKS_WITHIN = 1.0
+"""s; a watchdog says five times a second what it sees"""
+CHILD = [sys.executable, "-m", "zteleop", "actuator"]
+RECORDER = [*CHILD, "--record"]
+
+
+def run(settings: Config, hand: PulseDriver, joined: Callable[[Node], object]) -> int:
+    """Watch over an actuator of the robot in the settings; `joined` is told of the node."""
+    robot, chip = settings.robot or "", settings.driver_settings(settings.driver, settings.robot or "")
+    with ExitStack() as stack:
+        place = None if len(tempfile.gettempdir()) < LONGEST_PLACE else "/tmp"
+        folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="zteleop-", dir=place))
+        bus, childs_bus = _door(settings.bus, f"unixsock-stream/{folder}/bus")
+        with realtime.lent(PROGRAM.priority):
+            node = stack.enter_context(_join(robot, bus))
+        joined(node)
+        pin = output_enable(settings.driver, chip)
+        if pin:
+            stack.callback(pin.close)
+        _privileges(node)
+        orders = msgspec.json.encode(msgspec.structs.replace(settings, bus=childs_bus))
+        child = Child(CHILD, orders, hand.shared())
+        recorder = Recorder(RECORDER, orders, node.log.warn) if settings.blackbox else None
+        stop_file = StopFile(config.state_folder(robot) / "stop", node.log.error)
+        lane = stack.enter_context(closing(Ear(robot, bus, node.log.warn)))
+        dog = Watchdog(node, settings.drive, hand, child, stop_file, _switch(node, pin), recorder, lane)
+        return dog.run()
+
+
+@contextmanager
+def _join(robot: str, bus: BusSettings) -> Iterator[Node]:
+    """Join the bus as the only watchdog of that robot."""
+    with open_session(bus, settle=True, door=True) as session:
+        before = presence.holders(session, robot, "watchdog")
+        with Node("watchdog", robot, session=session, feed=realtime.feed) as node:
+            holders = {*before, *_who_goes_first(presence.holders(session, robot, "watchdog"))}
+            if holders:
+                _pass_over(node, ", ".join(sorted(holders)))
+            yield node
+
+
+def _who_goes_first(holders: list[str]) -> list[str]:
+    """Of several that start at once, one goes on."""
+    return [holder for holder in holders if holder < presence.process()]
+
+
+def _pass_over(node: Node, holders: str) -> None:
+    """Take a place whose holders say nothing: anybody may hold one, and only a watchdog speaks.
+
+    Raises DeviceError when one does.
+    """
+    statuses = node.subscription("watchdog", WatchdogStatus)
+    if node.until(statuses.newest, SPEAKS_WITHIN):
+        raise DeviceError(f"robot {node.robot} has an actuator already: {holders}; stop it, or say --robot")
+    node.log.warn(f"{holders} holds the place of this robot's watchdog and says nothing; it is passed over")
+
+
+def _switch(node: Node, pin: OutputEnable | None) -> Callable[[bool], bool]:
+    """Return what lets the chip's outputs through, or cuts them, and says whether a pin did."""
+
+    def switch(on: bool) -> bool:
+        try:
+            if pin:
+                pin.enable() if on else pin.disable()
+        except DeviceError as error:
+            node.log.error(str(error), "oe")
+            return False
+        return pin is not None
+
+    return switch
+
+
+def _door(bus: BusSettings, private: str) -> tuple[BusSettings, BusSettings]:
+    """Return how the watchdog joins the bus, and how its actuator does: through the watchdog's door."""
+    if bus.mode == "client":
+        return bus, bus
+    listen = bus.listen
+    if bus.mode == "peer" and bus.multicast and not listen:
+        listen = [ROBOT_ENDPOINT, "tcp/[::]:0"]
+    childs = BusSettings(mode="client", connect=[private], multicast=False, largest=LARGEST)
+    return msgspec.structs.replace(bus, listen=[*listen, private], largest=LARGEST), childs
+
+
+def _privileges(node: Node) -> None:
+    missing = realtime.ask_for(PROGRAM.priority, PROGRAM.oom_score)
+    if missing:
+        node.log.info(f"runs without {', '.join(missing)}: not permitted; deploy/README.md says how")

@@ -1,0 +1,55 @@
+"""What an operator sees, as lines for a terminal of any size."""
+
+from zteleop.screen.dashboard import Dashboard, Line
+from zteleop.screen.readings import brief, footer, readings, steering_angle
+from zteleop.screen.top_view import draw
+from zteleop.terminal.cells import Span, fit, pad, paint, width
+
+__all__ = ["Dashboard", "render"]
+
+BESIDE = 70
+"""Columns from which on the picture stands at the right."""
+LEFT = 44
+"""Columns that the lines keep beside it."""
+LEAST_COLUMNS, LEAST_ROWS = 16, 6
+"""Of a picture worth looking at."""
+
+
+def render(dashboard: Dashboard, columns: int, rows: int, *, unicode: bool, color: bool) -> list[str]:
+    """Return at most `rows` lines, each at most `columns` cells wide."""
+    if rows == 1:
+        return [paint(fit(brief(dashboard, unicode), columns), color)]
+    body, bottom = choose(readings(dashboard, columns, unicode), footer(dashboard, columns, unicode), rows)
+    spare = rows - len(body) - len(bottom)
+    middle = [*body, *[[Span("")]] * spare]
+    if dashboard.odom is not None or dashboard.status is not None:
+        middle = with_picture(dashboard, middle, len(body), columns, unicode)
+    return [paint(fit(spans, columns), color) for spans in [*middle, *bottom]]
+
+
+def choose(body: list[Line], bottom: list[Line], rows: int) -> tuple[list[list[Span]], list[list[Span]]]:
+    """Return the lines there is room for, by rank."""
+    lines = [*body, *bottom]
+    kept = sorted(range(len(lines)), key=lambda index: (lines[index].rank, index))[: max(0, rows)]
+    chosen = [(index, lines[index].spans) for index in sorted(kept)]
+    return (
+        [spans for index, spans in chosen if index < len(body)],
+        [spans for index, spans in chosen if index >= len(body)],
+    )
+
+
+def with_picture(
+    d: Dashboard, middle: list[list[Span]], used: int, columns: int, unicode: bool
+) -> list[list[Span]]:
+    """Return the lines with the robot from above beside or below them, where there is room."""
+    beside = columns >= BESIDE
+    wide = [index for index, spans in enumerate(middle) if sum(width(span.text) for span in spans) > LEFT]
+    top = max(3, *(index + 1 for index in wide), 0) if beside else used + 1
+    rows = len(middle) - top - (1 if beside else 0)
+    across = columns - LEFT - 2 if beside else columns
+    if rows < LEAST_ROWS or across < LEAST_COLUMNS:
+        return middle
+    picture = draw(d.odom, d.trail, steering_angle(d), d.vehicle, across, rows, unicode)
+    margin = LEFT + 2 if beside else 0
+    shown = [[*pad(middle[top + i], margin), Span(line)] for i, line in enumerate(picture)]
+    return [*middle[:top], *shown, *middle[top + rows :]]
