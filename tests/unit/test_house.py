@@ -1,6 +1,8 @@
 """The house as design and pyproject draw it."""
 
 import ast
+import re
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -27,6 +29,27 @@ def test_every_room_says_in_its_first_line_what_is_in_it() -> None:
     for room in {path.parent for path in SOURCES} - {ROOT / "zteleop/chaos/sabotage"}:
         first = (ast.get_docstring(ast.parse((room / "__init__.py").read_text())) or "").split("\n")[0]
         assert first.endswith((".", ":")), f"{room.relative_to(ROOT)} begins with {first!r}"
+
+
+def test_the_page_shows_every_room_on_its_floor_with_its_own_words() -> None:
+    layers = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["importlinter"]["contracts"][0][
+        "layers"
+    ]
+    floor = {
+        name.strip(" ()"): len(layers) - 1 - number
+        for number, names in enumerate(layers)
+        for name in names.split("|")
+    }
+    page = (ROOT / "docs/house.md").read_text()
+    shown = re.findall(r"^\| (\d) \| `([a-z]+)(?:\.py)?` \| (.+) \|$", page, re.MULTILINE)
+    rooms = {path.parent.name: path for path in (ROOT / "zteleop").glob("*/__init__.py")}
+    rooms |= {name: ROOT / f"zteleop/{name}.py" for name in ("config", "errors")}
+    assert {room: (int(number), words) for number, room, words in shown} == {
+        room: (floor[room], (ast.get_docstring(ast.parse(path.read_text())) or "").split("\n")[0])
+        for room, path in rooms.items()
+    }
+    stops = re.findall(r"`([a-z_]+/(?:[a-z_0-9]+/)*(?:[a-z_0-9]+\.py)?)`", page)
+    assert [stop for stop in stops if not (ROOT / "zteleop" / stop).exists()] == []
 
 
 def test_functions_are_short() -> None:
