@@ -41,7 +41,7 @@ class StampedDriver:
     def __init__(self, driver: Any) -> None:
         self._driver, self.at = driver, 0.0
         self.tick_us, self.arming = driver.tick_us, driver.arming
-        self.start, self.close, self.check = driver.start, driver.close, driver.check
+        self.start, self.read, self.close, self.check = driver.start, driver.read, driver.close, driver.check
 
     def write(self, pulse_us: dict[int, float]) -> None:
         self._driver.write(pulse_us)
