@@ -5,6 +5,7 @@ import sys
 import time
 from contextlib import suppress
 from pathlib import Path
+from types import SimpleNamespace
 from typing import NamedTuple
 
 from figures import command_line, median, print_table
@@ -79,7 +80,7 @@ def memory_mb(robot: Robot) -> float:
     total = 0.0
     for pid in processes(robot):
         with suppress(OSError):
-            total += private_mb(type("Process", (), {"pid": pid}))
+            total += private_mb(SimpleNamespace(pid=pid))
     return total
 
 

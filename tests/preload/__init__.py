@@ -1,10 +1,12 @@
 """A /dev/i2c-1 of our own: the real smbus2 and the real driver against a PCA9685 in a file, without root."""
 
+import json
 import os
 import shutil
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -38,3 +40,17 @@ def environment(library: Path, chip: str | Path, address: int = 0x40) -> dict[st
         "ZTELEOP_I2CDEV_FILE": str(chip),
         "ZTELEOP_I2CDEV_ADDRESS": f"0x{address:02x}",
     }
+
+
+def run(folder: Path, module: str, *arguments: str) -> Any:
+    """Run a module of this folder with that library and a chip of its own; return what it says in JSON."""
+    done = subprocess.run(
+        [sys.executable, "-m", f"preload.{module}", *arguments],
+        env=os.environ | environment(library(folder), folder / "chip"),
+        cwd=Path(__file__).parents[1],
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)

@@ -1,34 +1,18 @@
 """The real driver, the real smbus2 and a /dev/i2c-1 of our own: one process does every case and reports."""
 
-import json
-import os
-import subprocess
-import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+import preload
 import pytest
-from preload import environment, library
 from preload.device import DEVICE_CASES
 
 from zteleop.drivers.faults import Faults, next_fault
 
-TESTS = Path(__file__).parents[1]
-
 
 @pytest.fixture(scope="module")
 def found(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str | None]:
-    folder = tmp_path_factory.mktemp("i2cdev")
-    done = subprocess.run(
-        [sys.executable, "-m", "preload.device"],
-        env=os.environ | environment(library(folder), folder / "chip"),
-        cwd=TESTS,
-        capture_output=True,
-        text=True,
-        timeout=60,
-    )
-    assert done.returncode == 0, done.stderr
-    outcomes: dict[str, str | None] = json.loads(done.stdout)
+    outcomes: dict[str, str | None] = preload.run(tmp_path_factory.mktemp("i2cdev"), "device")
     return outcomes
 
 

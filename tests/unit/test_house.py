@@ -9,6 +9,7 @@ import pytest
 from importlinter.cli import EXIT_STATUS_SUCCESS, lint_imports
 
 import zteleop
+from zteleop.processes import PROGRAMS
 
 ROOT = Path(__file__).parents[2]
 SOURCES = sorted((ROOT / "zteleop").rglob("*.py"))
@@ -48,6 +49,13 @@ def test_the_page_shows_every_room_on_its_floor_with_its_own_words() -> None:
         room: (floor[room], (ast.get_docstring(ast.parse(path.read_text())) or "").split("\n")[0])
         for room, path in rooms.items()
     }
+
+
+def test_the_page_shows_what_a_robot_is_made_of() -> None:
+    page = (ROOT / "docs/house.md").read_text()
+    assert re.findall(r"^\| `(\w+)` \| (.+) \| (\d+) \| (-?\d+) \| (.+) \|$", page, re.MULTILINE) == [
+        (name, *map(str, program)) for name, program in PROGRAMS.items()
+    ]
 
 
 @pytest.mark.parametrize("page", ["house", "words"])

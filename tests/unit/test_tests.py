@@ -8,6 +8,7 @@ import pytest
 
 TESTS = Path(__file__).parents[1]
 LOGIC = [path for path in sorted(TESTS.rglob("test_*.py")) if path.parent.name in ("system", "faults")]
+LOGIC += sorted((TESTS / "preload").glob("*.py"))  # cases that test_i2cdev runs
 CLOCKS = {"monotonic", "perf_counter", "time", "now", "time_ns", "monotonic_ns"}
 PATIENT = 30
 """s, the least that a test may wait for what must come; less is a bound"""

@@ -34,10 +34,10 @@ def run(arguments: argparse.Namespace) -> int:
         log = stack.enter_context((folder / "log").open("w"))
         (folder / "config.toml").write_text(f'[drivers.simulated]\npath = "{folder / "chip"}"\n')
         where = ["--config", str(folder / "config.toml"), "--robot", robot, "--no-multicast-scouting"]
-        robots = ["actuator", *where, "--listen", endpoint, "--listen", SAME_MACHINE_DOOR]
-        wheels = ["sim", *where, "--connect", endpoint, "--listen", "tcp/127.0.0.1:0"]
+        actuator = ["actuator", *where, "--listen", endpoint, "--listen", SAME_MACHINE_DOOR]
+        simulator = ["sim", *where, "--connect", endpoint, "--listen", "tcp/127.0.0.1:0"]
         keeps = {"XDG_STATE_HOME": str(folder)}  # a demo leaves nothing behind
-        children = [stack.enter_context(leashed(verb, log, keeps)) for verb in (robots, wheels)]
+        children = [stack.enter_context(leashed(verb, log, keeps)) for verb in (actuator, simulator)]
         bus = BusSettings(connect=[endpoint], listen=["tcp/127.0.0.1:0"], multicast=False)
         node = stack.enter_context(Node("keyboard", robot, bus))
         await_robot(node, children, Path(log.name))

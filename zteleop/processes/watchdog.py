@@ -37,7 +37,8 @@ RECORDER = [*CHILD, "--record"]
 
 def run(settings: Config, hand: PulseDriver, joined: Callable[[Node], object]) -> int:
     """Watch over an actuator of the robot in the settings; `joined` is told of the node."""
-    robot, chip = settings.robot or "", settings.driver_settings(settings.driver, settings.robot or "")
+    robot = settings.robot or ""
+    chip = settings.driver_settings(settings.driver, robot)
     with ExitStack() as stack:
         place = None if len(tempfile.gettempdir()) < LONGEST_PLACE else "/tmp"
         folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="zteleop-", dir=place))

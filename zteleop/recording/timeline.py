@@ -1,6 +1,6 @@
 """What a person wants to know of a recording: who drove, what changed, and why the robot came to rest."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any
 
 import msgspec
@@ -85,6 +85,12 @@ class Timeline:
             "beat": (_Beat, self._hear_beat),
         }
 
+    def learn(self, lines: Sequence[Recorded]) -> None:
+        """Take what rest is from the first vehicle; it holds for the commands before it as well."""
+        for line in reversed(lines):
+            if line.key == f"{self._prefix}vehicle":
+                self._senders.learn(line.payload)
+
     def hear(self, line: Recorded) -> None:
         """Note what a message changes."""
         path = line.key.removeprefix(self._prefix)
@@ -142,14 +148,11 @@ class Timeline:
             self._note(at, f"the first beat of the actuator for {at - before[1]:.2f} s")
 
 
-def timeline(header: Header, lines: Iterable[Recorded]) -> list[Event]:
+def timeline(header: Header, lines: Sequence[Recorded]) -> list[Event]:
     """Return what happened, in the order of time by the robot's bus clock."""
     heard = Timeline(header)
     last = header.at
-    lines = list(lines)
-    for line in reversed(lines):
-        if line.key == f"robot/{header.robot}/vehicle":
-            heard.hear(line)  # what the first of them calls rest holds for the commands before it as well
+    heard.learn(lines)
     for line in lines:
         heard.hear(line)
         last = max(last, line.at)

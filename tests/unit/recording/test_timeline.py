@@ -134,6 +134,11 @@ def test_rest_is_what_the_robot_says_it_is() -> None:
     assert told(line(-3.0, "vehicle", {"channels": 5}), pwm(-2.0, 375, 370)) == []
 
 
+def test_a_vehicle_that_nobody_understood_is_told_once() -> None:
+    wrong = line(-3.0, "vehicle", None, wrong="not a Vehicle")
+    assert told(wrong) == ["-3.00 vehicle: nobody understood a message: not a Vehicle"]
+
+
 def test_nothing_is_called_rest_where_no_robot_said_what_it_is() -> None:
     (only,) = timeline(header(), [pwm(-2.0, 375, 370)])[:1]
     assert only.text == "keyboard 3f2a begins: steering 375, throttle 370"
