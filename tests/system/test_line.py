@@ -251,9 +251,24 @@ def test_of_two_keyboards_the_first_drives_until_it_lets_go(rig: Rig, steps: Ter
         second.type("x")
         steps.type("x")
         stands(rig, *NEUTRAL)
+        second.shows("nobody operates")  # whoever begins before he has heard so began too early
         second.type(LEFT)
         stands(rig, 390, 370)
         second.shows("you operate")
+
+
+def test_whoever_lets_go_and_presses_again_in_one_breath_begins_anew(rig: Rig, steps: Terminal) -> None:
+    """Over a slow link several keys come at once."""
+    with operating(rig, rig.keyboard()) as second:
+        steps.type(UP * 5)
+        stands(rig, 375, 375)
+        second.type(LEFT)
+        second.shows("another sender drives")
+        steps.type("x")
+        stands(rig, *NEUTRAL)
+        second.shows("nobody operates")
+        second.type("x" + LEFT)
+        stands(rig, 390, 370)
 
 
 def test_without_a_terminal_it_says_so(rig: Rig) -> None:

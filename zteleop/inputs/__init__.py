@@ -15,6 +15,8 @@ class Input(Protocol):
     """What a full stick means."""
     finished: bool
     """The operator asked to end."""
+    rested: bool
+    """It was at neutral since this was last taken, be it between two acts that came at once"""
     stop_wish: bool | None
     """True to stop the robot until released, False to release it; whoever takes the wish leaves None."""
 

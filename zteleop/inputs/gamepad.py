@@ -23,6 +23,7 @@ class Gamepad:
     ) -> None:
         self.settings = settings or GamepadSettings()
         self.finished = False
+        self.rested = False
         self.stop_wish: bool | None = None
         self.silence = self.settings.silence
         self._pads = pads

@@ -40,7 +40,7 @@ class Keyboard:
     ) -> None:
         self.drive: Literal["step", "hold"] = drive
         self.speeds = speeds or Speeds()
-        self.finished = False
+        self.finished = self.rested = False
         self.stop_wish: bool | None = None
         self.suspending = False
         """Ctrl-Z was pressed: publish neutral, then call `suspend`."""
@@ -94,9 +94,9 @@ class Keyboard:
         if self._idle(now):  # a loop that came late must not step on from where it was
             self.neutral()
         for key in keys:
-            self._press(key)
-        if keys:
             self._acted = now
+            self._press(key)
+            self.rested = self.rested or not self.stick(now).deadman
         return bool(keys)
 
     def stick(self, now: float) -> Stick:

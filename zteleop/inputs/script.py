@@ -16,6 +16,7 @@ class Script:
         self.duration = duration
         self.speeds = speeds or Speeds()
         self.finished = False
+        self.rested = False
         self.stop_wish: bool | None = None
         self._began: float | None = None
         self._turn = 0.5

@@ -111,6 +111,9 @@ class Teleop:
         self._pass_on_wish(now)
         stick = self._device.stick(now)
         command = self._command(stick)
+        rested, self._device.rested = self._device.rested, False
+        if rested and command and self._wanted:  # let go and pressed again, before anybody looked
+            self._say(None)
         if command:
             self._neutrals = NEUTRALS
         if self._neutrals:

@@ -104,6 +104,16 @@ def test_x_brings_both_to_neutral(step):
     assert step.ticks() is None
 
 
+@pytest.mark.parametrize(
+    ("keys", "rested"), [(b"x\x1b[D", True), (b"\x1b[C\x1b[D", True), (b"\x1b[D", False), (b" \x1b[D", False)]
+)
+def test_neutral_between_two_keys_that_came_at_once_is_told(step, keys, rested):
+    step.type(b"\x1b[D")
+    step.keyboard.rested = False
+    step.type(keys)
+    assert step.keyboard.rested is rested
+
+
 @pytest.mark.parametrize("drive", ["step", "hold"])
 @pytest.mark.parametrize("key", [DELETE, b"\x08"])
 def test_backspace_is_neutral_and_a_wish_to_stop(car, drive, key):

@@ -26,6 +26,7 @@ class Device:
     def __init__(self, drive: str = "hold") -> None:
         self.drive, self.speeds, self.finished = drive, Speeds(), False
         self.position, self.acted = Stick(), False
+        self.rested = False
         self.stop_wish: bool | None = None
         self.fitted: list[Vehicle] = []
         self.resets: list[float] = []
@@ -129,6 +130,16 @@ def test_neutral_ends_the_claim(desk: Desk) -> None:
     desk.device.position = Stick()
     desk.tick(10)
     assert desk.twists.lets_go == 3
+
+
+def test_whoever_lets_go_and_presses_again_at_once_begins_anew(steps: Desk) -> None:
+    steps.device.position = Stick(1.0, 0.0, deadman=True)
+    steps.tick()
+    steps.device.rested = True
+    steps.tick(2)
+    first, rest, *again = steps.pwms.take()
+    assert (rest, again) == (NEUTRAL, [first, first])
+    assert (steps.pwms.lets_go, steps.device.rested) == (1, False)
 
 
 def test_neutral_of_levers_is_the_vehicles_own(steps: Desk) -> None:
