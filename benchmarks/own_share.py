@@ -9,13 +9,13 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import zenoh
 from stamped import StampedDriver, StampedPublisher, TypedTerminal
 
 from zteleop.bus import clock
 from zteleop.bus.loop import Timer
 from zteleop.bus.node import Node
-from zteleop.bus.session import BusSettings, open_session
+from zteleop.bus.session import Session, open_session
+from zteleop.bus.settings import BusSettings
 from zteleop.bus.subscription import Subscription
 from zteleop.cli.keyboard import painter
 from zteleop.control.drive import DriveSettings
@@ -44,7 +44,7 @@ class OwnShare(NamedTuple):
 class HeldNode(Node):
     """A node whose handlers and timers run when this program says, not when samples come."""
 
-    def __init__(self, name: str, session: zenoh.Session) -> None:
+    def __init__(self, name: str, session: Session) -> None:
         self.puts: dict[str, StampedPublisher] = {}
         self.inboxes: dict[str, tuple[Subscription[Any], Any]] = {}
         self.timers: list[Callable[[], None]] = []

@@ -3,7 +3,7 @@
 import time
 from typing import Any
 
-import zenoh
+from zteleop.bus.session import Outlet
 
 
 class TypedTerminal:
@@ -27,7 +27,7 @@ class TypedTerminal:
 class StampedPublisher:
     """Notes when a publisher put what it says."""
 
-    def __init__(self, publisher: zenoh.Publisher) -> None:
+    def __init__(self, publisher: Outlet) -> None:
         self._publisher, self.at = publisher, 0.0
 
     def put(self, *values: Any, **options: Any) -> None:

@@ -15,7 +15,8 @@ from pathlib import Path
 import zenoh
 
 from zteleop.bus import codec
-from zteleop.bus.session import BusSettings, open_session
+from zteleop.bus.settings import BusSettings
+from zteleop.bus.zenoh_session import open_zenoh
 from zteleop.control.proof import Prover
 from zteleop.messages import Beat, Twist
 
@@ -25,7 +26,7 @@ TWIST = f"application/json;{Twist.ros_type}"
 
 
 def join(endpoint: str) -> zenoh.Session:
-    return open_session(BusSettings(mode="client", connect=[endpoint], multicast=False))
+    return open_zenoh(BusSettings(mode="client", connect=[endpoint], multicast=False))
 
 
 def strike() -> None:

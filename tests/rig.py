@@ -18,8 +18,9 @@ import zenoh
 from processes import PATIENCE, ZTELEOP, Process, Terminal, Unmet, until, users_of
 
 from zteleop.bus.node import Node
-from zteleop.bus.session import BusSettings, open_session
+from zteleop.bus.settings import BusSettings
 from zteleop.bus.subscription import Subscription
+from zteleop.bus.zenoh_session import open_zenoh
 from zteleop.drivers.registers import read_duty_ticks
 from zteleop.drivers.simulated import open_registers
 from zteleop.machine import realtime
@@ -182,7 +183,7 @@ class Rig:
 
     def session(self) -> zenoh.Session:
         """Join the bus without any of zteleop's manners."""
-        session = open_session(BusSettings(connect=[self.endpoint], multicast=False))
+        session = open_zenoh(BusSettings(connect=[self.endpoint], multicast=False))
         self._stack.callback(session.close)
         return session
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from zteleop.bus.node import Node
     from zteleop.bus.publisher import Publisher
-    from zteleop.bus.session import BusSettings
+    from zteleop.bus.settings import BusSettings
     from zteleop.bus.subscription import Received, Subscription
     from zteleop.compat.pwm_controller import PWMController
     from zteleop.errors import BusError, ConfigError, DeviceError, MessageError, ZteleopError
@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "BusError": "zteleop.errors",
-    "BusSettings": "zteleop.bus.session",
+    "BusSettings": "zteleop.bus.settings",
     "ConfigError": "zteleop.errors",
     "DeviceError": "zteleop.errors",
     "MessageError": "zteleop.errors",

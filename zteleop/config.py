@@ -11,7 +11,7 @@ import msgspec
 from msgspec import Struct, field
 
 from zteleop.bus.names import chunk, robot_name
-from zteleop.bus.session import BusSettings
+from zteleop.bus.settings import BusSettings
 from zteleop.control.drive import DriveSettings
 from zteleop.control.stick import Speeds
 from zteleop.drivers import settings_of

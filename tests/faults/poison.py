@@ -10,7 +10,8 @@ import zenoh
 from processes import PATIENCE
 from rig import free_port
 
-from zteleop.bus.session import BusSettings, open_session
+from zteleop.bus.settings import BusSettings
+from zteleop.bus.zenoh_session import open_zenoh
 
 SOUND, SPOILT = b"spoilt", b"#@$*$#"
 """as long as each other: zenoh's frames say their length, and nothing else of what is in them"""
@@ -49,7 +50,7 @@ def poison(port: int) -> None:
     """Declare a key expression that is none to whoever listens at a port, and leave."""
     with Spoiler(port) as spoiler:
         bus = BusSettings(mode="client", connect=[f"tcp/127.0.0.1:{spoiler.port}"], multicast=False)
-        with open_session(bus) as session:
+        with open_zenoh(bus) as session:
             session.declare_subscriber(f"robot/bench/{SOUND.decode()}", zenoh.handlers.RingChannel(1))
             session.declare_subscriber("robot/bench/sound", zenoh.handlers.RingChannel(1))
             time.sleep(0.5)  # a poisoned robot answers nothing
@@ -58,7 +59,7 @@ def poison(port: int) -> None:
 def is_deaf(port: int) -> bool:
     """Say whether a newcomer's declarations are heard no more, which is what the poison does."""
     bus = BusSettings(mode="client", connect=[f"tcp/127.0.0.1:{port}"], multicast=False)
-    with open_session(bus) as session:
+    with open_zenoh(bus) as session:
         inbox = session.declare_subscriber("robot/*/beat", zenoh.handlers.RingChannel(1))
         give_up = time.monotonic() + min(1.0, PATIENCE)
         while time.monotonic() < give_up:

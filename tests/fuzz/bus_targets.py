@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from contextlib import suppress
-from types import SimpleNamespace
 from typing import Any
 
 import zenoh
@@ -11,7 +10,9 @@ from fuzz.reading import ALL, is_key, parts, safe
 from zteleop.bus import codec, presence
 from zteleop.bus.escape import printable
 from zteleop.bus.names import chunk, resolve, robot_name
-from zteleop.bus.session import BusSettings, _check_threads, _configure
+from zteleop.bus.session import Sample
+from zteleop.bus.settings import BusSettings
+from zteleop.bus.zenoh_session import _check_threads, _configure
 from zteleop.cli.echo import render as echo
 from zteleop.control.gate import Deadlines, Gate
 from zteleop.errors import ConfigError, MessageError
@@ -78,8 +79,7 @@ def token(data: bytes) -> None:
     for name in presence.robots(session):
         assert robot_name(name)
     for key in session.keys:
-        gone: Any = SimpleNamespace(key_expr=key, kind=zenoh.SampleKind.DELETE)
-        sender = departures.read(gone)
+        sender = departures.read(Sample(key, b"", "", is_put=False))
         assert sender is None or 0 <= sender < 2**64
 
 
@@ -89,19 +89,12 @@ class Tokens:
     def __init__(self, keys: list[str]) -> None:
         self.keys = keys
 
-    def liveliness(self) -> "Tokens":
-        return self
-
-    def declare_subscriber(self, *_: object) -> None:
+    def watch_tokens(self, *_: object) -> None:
         return None
 
-    def get(self, selector: str, timeout: float) -> list[Any]:
+    def tokens(self, selector: str) -> set[str]:
         wanted = zenoh.KeyExpr(selector)
-        return [
-            SimpleNamespace(ok=SimpleNamespace(key_expr=key))
-            for key in self.keys
-            if wanted.intersects(zenoh.KeyExpr(key))
-        ]
+        return {key for key in self.keys if wanted.intersects(zenoh.KeyExpr(key))}
 
 
 def endpoint(data: bytes) -> None:

@@ -10,7 +10,8 @@ from contextlib import suppress
 import pytest
 from rig import free_port, until
 
-from zteleop.bus.session import BusSettings, open_session
+from zteleop.bus.settings import BusSettings
+from zteleop.bus.zenoh_session import open_zenoh
 
 
 def lingering(port: int) -> Iterator[bool]:
@@ -27,7 +28,7 @@ def lingering(port: int) -> Iterator[bool]:
 def test_no_link_lingers_on_either_side() -> None:
     port = free_port()
     endpoint = f"tcp/127.0.0.1:{port}"
-    with open_session(BusSettings(listen=[endpoint], multicast=False)):
+    with open_zenoh(BusSettings(listen=[endpoint], multicast=False)):
         for _ in range(2):  # one that was there, and one that comes anew
-            with open_session(BusSettings(connect=[endpoint], multicast=False)):
+            with open_zenoh(BusSettings(connect=[endpoint], multicast=False)):
                 until(lambda: list(lingering(port)) == [False, False], "two ends that do not linger")

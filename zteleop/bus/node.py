@@ -4,8 +4,6 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, Self, TypeVar
 
-import zenoh
-
 from zteleop.bus import clock, codec, presence
 from zteleop.bus.answer import Answer
 from zteleop.bus.heard import Heard
@@ -13,8 +11,9 @@ from zteleop.bus.log import NodeLog
 from zteleop.bus.loop import Loop, Timer
 from zteleop.bus.names import Name, chunk, resolve, robot_name
 from zteleop.bus.publisher import Publisher
-from zteleop.bus.session import BusSettings, open_session
-from zteleop.bus.subscription import Pump, Received, Subscription
+from zteleop.bus.session import Delivery, Inbox, Outlet, Session, open_session
+from zteleop.bus.settings import BusSettings
+from zteleop.bus.subscription import Received, Subscription
 from zteleop.bus.topics import topic_of
 from zteleop.control.proof import Prover
 from zteleop.errors import BusError, ConfigError
@@ -37,7 +36,7 @@ class Node:
         robot: str | None = None,
         bus: BusSettings | None = None,
         *,
-        session: zenoh.Session | None = None,
+        session: Session | None = None,
         feed: Callable[[], object] | None = None,
     ) -> None:
         self._feed = feed  # what each thread that wakes `spin` does first
@@ -46,14 +45,13 @@ class Node:
         try:
             self._set_up()
         except BaseException:
-            self.session.close()  # type: ignore[no-untyped-call]
+            self.session.close()
             raise
 
     def _set_up(self) -> None:
         self._loop = Loop(before_each=self._listen)
         self._handles = self._closed = False
-        self._pumps: list[Pump[Any]] = []
-        self._tokens: list[zenoh.LivelinessToken] = []
+        self._deliveries: list[Delivery] = []
         self._heard: dict[str, Heard] = {}
         self._log_publisher: Publisher[Log] | None = None
         self.log = NodeLog(self.name, self._say, stderr.say)
@@ -74,9 +72,9 @@ class Node:
     def close(self) -> None:
         """Leave the bus: others see this node go, and its threads end."""
         self._closed = True
-        self.session.close()  # type: ignore[no-untyped-call]
-        for pump in self._pumps:
-            pump.close()
+        self.session.close()
+        for delivery in self._deliveries:
+            delivery.close()
         self._loop.close()
         stderr.flush()
 
@@ -134,19 +132,18 @@ class Node:
         if kind.command and name.path == kind.name:
             name = Name(name.robot, f"{kind.name}/**")
         depth = depth or kind.depth
-        subscriber = self.session.declare_subscriber(name.key, zenoh.handlers.RingChannel(depth))
+        ring = self.session.subscribe(name.key, depth)
         self._token(presence.endpoint_key(name, "sub", self.name, kinds))
         inbox: Subscription[M] = Subscription(
-            subscriber, codec.decoders(kinds), self._complain if complain else _keep_quiet, self._handling
+            ring, codec.decoders(kinds), self._complain if complain else _keep_quiet, self._handling
         )
         if handler:
-            self._pumps.append(Pump(inbox, handler, self._loop, self._feed))
+            self._deliver(inbox, handler)
         return inbox
 
     def departures(self, handler: Callable[[int], object]) -> None:
         """Hand each sender of commands that is gone, by its number, to a handler in `spin`."""
-        departures = presence.Departures(self.session, self._own_robot())
-        self._pumps.append(Pump(departures, handler, self._loop, self._feed))
+        self._deliver(presence.Departures(self.session, self._own_robot()), handler)
 
     def on(self, topic: str, types: Types[M]) -> Callable[[Callable[[M], object]], Callable[[M], object]]:
         """Decorate a function to handle each message of a topic in `spin`."""
@@ -213,14 +210,12 @@ class Node:
             raise ConfigError(f"node {self.name} has no robot; say Node({self.name!r}, robot=...)")
         return self.robot
 
-    def _declare(self, name: Name, kinds: tuple[type[Message], ...], urgent: bool) -> zenoh.Publisher:
+    def _declare(self, name: Name, kinds: tuple[type[Message], ...], urgent: bool) -> Outlet:
         self._token(presence.endpoint_key(name, "pub", self.name, kinds))
-        return self.session.declare_publisher(
-            name.key,
-            congestion_control=zenoh.CongestionControl.DROP,
-            priority=zenoh.Priority.REAL_TIME if urgent else zenoh.Priority.DATA,
-            express=urgent,
-        )
+        return self.session.advertise(name.key, urgent)
+
+    def _deliver(self, inbox: Inbox, handler: Callable[[Any], object]) -> None:
+        self._deliveries.append(self.session.deliver(inbox, handler, self._loop, self._feed))
 
     def _listen(self) -> None:
         for heard in self._heard.values():
@@ -242,7 +237,7 @@ class Node:
             self._handles = outer
 
     def _token(self, key: str) -> None:
-        self._tokens.append(self.session.liveliness().declare_token(key))
+        self.session.declare_token(key)
 
     def _complain(self, text: str) -> None:
         self.log.warn(text, text.partition(":")[0])

@@ -11,11 +11,10 @@ import os
 import re
 import socket
 from collections.abc import Iterable
-from typing import Any, Literal, NamedTuple
-
-import zenoh
+from typing import Literal, NamedTuple
 
 from zteleop.bus.names import Name, is_robot
+from zteleop.bus.session import Sample, Session
 from zteleop.messages import Message
 
 Kind = Literal["pub", "sub"]
@@ -51,33 +50,29 @@ def sender_key(robot: str, sender: int) -> str:
 class Departures:
     """An inbox of the senders of commands that left, or whose process ended."""
 
-    def __init__(self, session: zenoh.Session, robot: str) -> None:
-        self.ring: Any = session.liveliness().declare_subscriber(
-            f"robot/{robot}/live/sender/*", zenoh.handlers.RingChannel(DEPARTURES)
-        )
+    def __init__(self, session: Session, robot: str) -> None:
+        self.ring = session.watch_tokens(f"robot/{robot}/live/sender/*", DEPARTURES)
 
-    def read(self, sample: zenoh.Sample) -> int | None:
+    def read(self, sample: Sample) -> int | None:
         """Return the sender whose token is gone; None for one that came."""
-        name = str(sample.key_expr).rpartition("/")[2]
-        left = sample.kind == zenoh.SampleKind.DELETE and len(name) <= 16
+        name = sample.key.rpartition("/")[2]
+        left = not sample.is_put and len(name) <= 16
         return int(name, 16) if left and set(name) <= set("0123456789abcdef") else None
 
 
 class Publications:
     """The paths on which nodes of one robot say that they publish; anybody may say anything."""
 
-    def __init__(self, session: zenoh.Session, robot: str) -> None:
-        self._ring: Any = session.liveliness().declare_subscriber(
-            f"robot/{robot}/live/pub/**", zenoh.handlers.RingChannel(PUBLICATIONS), history=True
-        )
+    def __init__(self, session: Session, robot: str) -> None:
+        self._ring = session.watch_tokens(f"robot/{robot}/live/pub/**", PUBLICATIONS, history=True)
         self._tokens: dict[str, str] = {}
 
     def changes(self) -> tuple[set[str], set[str]]:
         """Return the paths that have come since the last call, and those that have gone."""
         before = set(self._tokens.values())
         while (sample := self._ring.try_recv()) is not None:
-            key = str(sample.key_expr)
-            if sample.kind != zenoh.SampleKind.PUT:
+            key = sample.key
+            if not sample.is_put:
                 self._tokens.pop(key, None)
             elif len(self._tokens) < PUBLICATIONS and (path := _path(key)):
                 self._tokens[key] = path
@@ -95,7 +90,7 @@ def endpoint_key(name: Name, kind: Kind, node: str, types: Iterable[type[Message
     return f"robot/{name.robot}/live/{kind}/{node}/{process()}/{ros_type}/{name.path.replace('*', '+')}"
 
 
-def endpoints(session: zenoh.Session) -> list[Endpoint]:
+def endpoints(session: Session) -> list[Endpoint]:
     """Return what every robot's nodes publish and hear, as all who are connected tell."""
     found = set()
     for kind in ("pub", "sub"):
@@ -108,19 +103,17 @@ def endpoints(session: zenoh.Session) -> list[Endpoint]:
     return sorted(found)
 
 
-def holders(session: zenoh.Session, robot: str, node: str) -> list[str]:
+def holders(session: Session, robot: str, node: str) -> list[str]:
     """Return the processes that run a node of that name for a robot."""
     return sorted(key.rpartition("/")[2] for key in _tokens(session, f"robot/{robot}/live/node/{node}/*"))
 
 
-def robots(session: zenoh.Session) -> list[str]:
+def robots(session: Session) -> list[str]:
     """Return the robots that have an actuator."""
     found = {key.split("/")[1] for key in _tokens(session, "robot/*/live/node/actuator/*")}
     return sorted(filter(is_robot, found))
 
 
-def _tokens(session: zenoh.Session, selector: str) -> set[str]:
+def _tokens(session: Session, selector: str) -> set[str]:
     """Return the keys of the tokens there are; anybody may declare anything, also for every robot at once."""
-    replies = session.liveliness().get(selector, timeout=2.0)
-    keys = {str(reply.ok.key_expr) for reply in replies if reply.ok}
-    return {key for key in keys if key.isprintable() and "*" not in key}
+    return {key for key in session.tokens(selector) if key.isprintable() and "*" not in key}

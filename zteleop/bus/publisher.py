@@ -3,11 +3,10 @@
 from collections.abc import Callable
 from typing import Generic, TypeVar
 
-import zenoh
-
 from zteleop.bus import clock, codec
 from zteleop.bus.answer import Answer
 from zteleop.bus.heard import Heard
+from zteleop.bus.session import Outlet
 from zteleop.control.command import neutral
 from zteleop.control.proof import Prover
 from zteleop.errors import BusError, MessageError
@@ -25,25 +24,22 @@ class Publisher(Generic[M]):
 
     def __init__(
         self,
-        publisher: zenoh.Publisher,
+        outlet: Outlet,
         types: tuple[type[M], ...],
         prover: Prover | None = None,
         heard: Heard | None = None,
         listen: Callable[[], object] = lambda: None,
         answer: Answer | None = None,
     ) -> None:
-        self._publisher, self._prover, self._heard, self._listen = publisher, prover, heard, listen
+        self._outlet, self._prover, self._heard, self._listen = outlet, prover, heard, listen
         self._answer = answer
         self._said: type[Message] = types[0]
-        self._encodings: dict[type[Message], zenoh.Encoding] = {
-            kind: zenoh.Encoding(codec.encoding_of(kind)) for kind in types
-        }
+        self._encodings: dict[type[Message], str] = {kind: codec.encoding_of(kind) for kind in types}
 
     @property
     def matched(self) -> bool:
         """Somebody subscribes to this topic; the black box of a robot counts as well."""
-        # The stub calls it a bool; it is an object, and always true.
-        return bool(getattr(self._publisher.matching_status, "matching"))  # noqa: B009
+        return self._outlet.matched
 
     @property
     def sender(self) -> str:
@@ -96,17 +92,17 @@ class Publisher(Generic[M]):
         if self._prover:
             self._prover.let_go()
 
-    def _encode(self, message: Message) -> tuple[zenoh.Encoding, bytes]:
+    def _encode(self, message: Message) -> tuple[str, bytes]:
         encoding = self._encodings.get(type(message))
         if encoding is None:
             expected = " or ".join(kind.__name__ for kind in self._encodings)
             raise MessageError(f"expected {expected}, found {type(message).__name__}")
         return encoding, codec.encode(message)
 
-    def _put(self, message: Message, encoding: zenoh.Encoding, payload: bytes) -> None:
+    def _put(self, message: Message, encoding: str, payload: bytes) -> None:
         try:
-            self._publisher.put(payload, encoding=encoding, attachment=self._proof(message))
-        except zenoh.ZError as error:
+            self._outlet.put(payload, encoding, self._proof(message))
+        except BusError as error:
             raise BusError(f"cannot say a {type(message).__name__}: is its node closed? ({error})") from error
 
     def _proof(self, message: Message) -> bytes | None:

@@ -1,157 +1,104 @@
-"""Open zenoh from settings: the one place that knows zenoh's configuration."""
+"""What a node needs of whatever carries its messages: zenoh, or the door that speaks it for a robot."""
 
-import json
-import os
-import re
-import time
-from typing import Annotated, Literal
+from collections.abc import Callable
+from typing import Any, NamedTuple, Protocol, Self
 
-import zenoh
-from msgspec import Meta, Struct
-
-from zteleop.bus import linger
-from zteleop.errors import BusError, ConfigError
-
-PORT = 7447
-IF_FREE = "#exit_on_failure=false"
-"""After an endpoint to listen on: when another has it, go on without."""
-ROBOT_ENDPOINT = f"tcp/[::]:{PORT}{IF_FREE}"
-SAME_MACHINE = f"tcp/127.0.0.1:{PORT}"
-SAME_MACHINE_DOOR = f"{SAME_MACHINE}{IF_FREE}"
-_ENDPOINT = re.compile(
-    r"(tcp|udp|tls|quic|ws)/(\[[0-9A-Fa-f:.%]+\]|[^\s/:\[\]]+):\d{1,5}([?#].*)?$|unixsock-stream/."
-)
-_RUNTIME = "ZENOH_RUNTIME"
-_THREADS = "(rx:({rx}),acc:(handover:app),tx:({tx}),net:(handover:app),app:(worker_threads:1))"
-_ONE_THREAD = _THREADS.format(rx="handover:app", tx="handover:app")
-"""Half the latency of an idle link."""
-_APART = _THREADS.format(rx="worker_threads:1", tx="worker_threads:1")
-"""For who passes messages on: receiving may wait for sending, and one thread would wait for itself."""
-_POOL = r"(acc|app|net|rx|tx):\((?:worker_threads:[1-9]\d?|handover:(?:acc|app|net|rx|tx))\)"
-_POOLS = re.compile(rf"\({_POOL}(,{_POOL})*\)")
-_PATIENCE_US = 100_000
-"""for who passes messages on: a client that takes none for so long is let go, before it holds up the commands
-of others; zenoh's own patience is 5 s"""
-_RETRY = 0.1
-_QUIET, _SETTLED = 0.06, 0.5
+from zteleop.bus.loop import Loop
+from zteleop.bus.settings import BusSettings
 
 
-class BusSettings(Struct, frozen=True, forbid_unknown_fields=True):
-    """How to join the bus. On an open LAN: peers that find each other, in any order."""
+class Sample(NamedTuple):
+    """What came under a key, in its bytes."""
 
-    mode: Literal["peer", "client", "router"] = "peer"
-    connect: list[str] = []
-    """endpoints such as tcp/pi.local:7447, besides what multicast finds"""
-    listen: list[str] = []
-    multicast: bool = True
-    patience: Annotated[float, Meta(ge=0, le=3600)] = 3.0
-    """s a client waits for its router"""
-    largest: Annotated[int, Meta(ge=65536, le=2**30)] = 2**28
-    """bytes of a message; a longer one is dropped on its way in"""
-    stop_lane: bool = True
-    """stops are said and heard as datagrams too, for when zenoh is not"""
+    key: str
+    payload: bytes
+    encoding: str
+    attachment: bytes | None = None
+    is_put: bool = True
+    """False: a delete; of a token, that it is gone"""
 
 
-def open_session(settings: BusSettings, *, settle: bool = False, door: bool = False) -> zenoh.Session:
+class Ring(Protocol):
+    """Keeps the newest samples of one key until they are read."""
+
+    def recv(self) -> Sample:
+        """Wait for a sample; raises EOFError when the session is closed."""
+
+    def try_recv(self) -> Sample | None:
+        """Return a sample that has arrived."""
+
+    def undeclare(self) -> None:
+        """Hear no more."""
+
+
+class Outlet(Protocol):
+    """Says bytes under one key."""
+
+    @property
+    def matched(self) -> bool:
+        """Somebody hears it."""
+
+    def put(self, payload: bytes, encoding: str, attachment: bytes | None) -> None:
+        """Say bytes; raises BusError when the session is closed."""
+
+
+class Inbox(Protocol):
+    """A ring, and how to read what is in it."""
+
+    ring: Ring
+
+    def read(self, sample: Sample) -> Any | None:
+        """Return what a sample says; None when it says nothing."""
+
+
+class Delivery(Protocol):
+    """Brings what arrives in an inbox to a handler, in the loop of its node."""
+
+    def close(self) -> None:
+        """Bring no more."""
+
+
+class Session(Protocol):
+    """One membership of the bus."""
+
+    def subscribe(self, key: str, depth: int) -> Ring:
+        """Return a ring of what is said under a key, of the `depth` newest."""
+
+    def advertise(self, key: str, urgent: bool) -> Outlet:
+        """Return what says bytes under a key; what is urgent overtakes the rest."""
+
+    def declare_token(self, key: str) -> None:
+        """Stand for something until this session ends."""
+
+    def tokens(self, selector: str) -> set[str]:
+        """Return the tokens there are."""
+
+    def watch_tokens(self, selector: str, depth: int, history: bool = False) -> Ring:
+        """Return a ring of the tokens that come and go; with `history`, also of those there are."""
+
+    def deliver(
+        self, inbox: Inbox, handler: Callable[[Any], object], loop: Loop, feed: Callable[[], object] | None
+    ) -> Delivery:
+        """Hand what arrives to a handler in a loop, one message a round.
+
+        Where a thread waits for it, that thread calls `feed` first.
+        """
+
+    def close(self) -> None:
+        """Leave the bus."""
+
+    def __enter__(self) -> Self: ...
+
+    def __exit__(self, *exc: object) -> None: ...
+
+
+def open_session(settings: BusSettings, *, settle: bool = False, door: bool = False) -> Session:
     """Join the bus; with `settle`, first wait (at most 1 s) until everybody is found.
 
     With `door`, others join through this session.
 
     Raises ConfigError for an endpoint that is none, BusError when there is no router to a client.
     """
-    config = _configure(settings, settle, door)
-    give_up = time.monotonic() + settings.patience
-    while True:
-        try:
-            session = _open(config, door or settings.mode == "router")
-            return _settled(session, settle)
-        except zenoh.ZError as error:
-            if settings.mode != "client" or time.monotonic() > give_up:
-                raise BusError(_words(settings, error)) from error
-        time.sleep(_RETRY)
+    from zteleop.bus.zenoh_session import ZenohSession, open_zenoh  # not what reads settings needs it
 
-
-def _open(config: zenoh.Config, door: bool) -> zenoh.Session:
-    """Open with the threads that suit; zenoh looks at them once, and no child process should inherit them."""
-    if wanted := os.environ.get(_RUNTIME):
-        _check_threads(wanted)
-        return zenoh.open(config)
-    os.environ[_RUNTIME] = _APART if door else _ONE_THREAD
-    try:
-        return zenoh.open(config)
-    finally:
-        del os.environ[_RUNTIME]
-
-
-def _check_threads(text: str) -> None:
-    """Raise ConfigError for what zenoh would not only refuse, but die of."""
-    pools = re.findall(_POOL, text)
-    if not _POOLS.fullmatch(text) or len(set(pools)) != len(pools):
-        raise ConfigError(f"{_RUNTIME} is such as {_APART}, found {text!r}; correct it, or unset it")
-
-
-def _settled(session: zenoh.Session, settle: bool) -> zenoh.Session:
-    """Return a session whose links do not linger; with `settle`, once no further peer is found."""
-    try:
-        linger.forbid(session)
-        if settle:
-            _await_quiet(session)
-        return session
-    except BaseException:
-        session.close()  # type: ignore[no-untyped-call]
-        raise
-
-
-def _await_quiet(session: zenoh.Session) -> None:
-    found: set[str] = set()
-    quiet_at = time.monotonic() + _QUIET
-    end = time.monotonic() + _SETTLED
-    while time.monotonic() < min(quiet_at, end):
-        now_found = {str(peer) for peer in [*session.info.peers_zid(), *session.info.routers_zid()]}
-        if now_found != found:
-            found, quiet_at = now_found, time.monotonic() + _QUIET
-        time.sleep(0.005)
-
-
-def _configure(settings: BusSettings, settle: bool, door: bool = False) -> zenoh.Config:
-    for endpoint in (*settings.connect, *settings.listen):
-        if not _ENDPOINT.match(endpoint):
-            raise ConfigError(
-                f"an endpoint is such as tcp/pi.local:{PORT} or tcp/[::]:{PORT}, found {endpoint!r}"
-            )
-    connect = settings.connect or ([SAME_MACHINE] if settings.mode == "peer" and settings.multicast else [])
-    values = {
-        "mode": settings.mode,
-        "connect/endpoints": connect,
-        "connect/timeout_ms": 0 if settings.mode == "client" else -1,  # -1: goes on trying behind our back
-        "connect/exit_on_failure": settings.mode == "client",
-        "connect/retry": {"period_init_ms": 100, "period_max_ms": 1000, "period_increase_factor": 1.5},
-        "listen/exit_on_failure": True,
-        "scouting/multicast/enabled": settings.multicast,
-        "scouting/delay": 500 if settle and settings.multicast else 0,
-        "transport/shared_memory/enabled": False,
-        "transport/link/rx/max_message_size": settings.largest,
-        "transport/unicast/open_timeout": 3000,  # ms; a close waits for an attempt to connect
-        "transport/link/tx/lease": 1000,
-        "transport/link/tx/keep_alive": 4,
-    }
-    if door or settings.mode == "router":
-        values["transport/link/tx/queue/congestion_control/block/wait_before_close"] = _PATIENCE_US
-    if settings.listen:
-        values["listen/endpoints"] = settings.listen
-    config = zenoh.Config()
-    for key, value in values.items():
-        try:
-            config.insert_json5(key, json.dumps(value))
-        except zenoh.ZError as error:
-            reason = str(error).partition(" at /")[0]
-            raise ConfigError(f"bus: {value!r} cannot be {key}: {reason}") from None
-    return config
-
-
-def _words(settings: BusSettings, error: zenoh.ZError) -> str:
-    reason = str(error).partition(" at /")[0]
-    if settings.mode == "client":
-        where = ", ".join(settings.connect) or "by multicast"
-        return f"no router found ({where}); is the robot on, and its address right? ({reason})"
-    return f"cannot open the bus: {reason}"
+    return ZenohSession(open_zenoh(settings, settle=settle, door=door))

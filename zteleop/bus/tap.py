@@ -1,12 +1,11 @@
 """Everything that is said of one robot, as it came: nothing is decoded, and nobody is held up."""
 
 from collections.abc import Iterable, Iterator
-from typing import Any, NamedTuple
-
-import zenoh
+from typing import NamedTuple
 
 from zteleop.bus import clock
 from zteleop.bus.presence import Publications
+from zteleop.bus.session import Ring, Sample, Session
 from zteleop.bus.topics import topic_of
 
 DEPTH = 500
@@ -37,9 +36,9 @@ class Tap:
     It asks for nothing else: a stranger's flood passes nobody, as long as nobody hears it.
     """
 
-    def __init__(self, session: zenoh.Session, robot: str, known: Iterable[str]) -> None:
+    def __init__(self, session: Session, robot: str, known: Iterable[str]) -> None:
         self._session, self._prefix = session, f"robot/{robot}/"
-        self._inboxes: dict[str, Any] = {}
+        self._inboxes: dict[str, Ring] = {}
         self._known = tuple(known)
         self._paused: dict[str, float] = {}
         for path in self._known:
@@ -74,7 +73,7 @@ class Tap:
         taken, inbox = 0, self._inboxes[path]
         while taken < DEPTH and (sample := inbox.try_recv()) is not None:
             taken += 1
-            key = str(sample.key_expr)
+            key = sample.key
             yield _raw(sample, key if "*" in key else key.removeprefix(self._prefix), now)
         if taken >= FLOOD:
             self._paused[path] = now + PAUSE
@@ -82,7 +81,7 @@ class Tap:
 
     def _hear(self, path: str) -> None:
         key = self._prefix + path
-        self._inboxes[path] = self._session.declare_subscriber(key, zenoh.handlers.RingChannel(DEPTH))
+        self._inboxes[path] = self._session.subscribe(key, DEPTH)
 
     def _leave(self, path: str) -> None:
         if inbox := self._inboxes.pop(path, None):
@@ -93,13 +92,5 @@ def _is_commanded(path: str) -> bool:
     return path == "stop" or topic_of(path).command
 
 
-def _raw(sample: zenoh.Sample, path: str, now: float) -> Raw:
-    attachment = sample.attachment
-    return Raw(
-        now,
-        path,
-        str(sample.encoding),
-        bytes(sample.payload),
-        b"" if attachment is None else bytes(attachment),
-        sample.kind != zenoh.SampleKind.PUT,
-    )
+def _raw(sample: Sample, path: str, now: float) -> Raw:
+    return Raw(now, path, sample.encoding, sample.payload, sample.attachment or b"", not sample.is_put)

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import NamedTuple, Self
 
 from zteleop.bus.node import Node
-from zteleop.bus.session import BusSettings
+from zteleop.bus.settings import BusSettings
 from zteleop.chaos.cable import Cable
 from zteleop.chaos.eye import Eye, open_eye
 from zteleop.chaos.process import ZTELEOP, Process, actuator_of

@@ -10,7 +10,7 @@ import time
 from itertools import cycle
 
 from zteleop.bus.node import Node
-from zteleop.bus.session import BusSettings
+from zteleop.bus.settings import BusSettings
 from zteleop.messages import Twist
 
 IN_A_ROW = 20
@@ -25,12 +25,12 @@ def main(endpoint: str, robot: str, rate: str, size: str, *topics: str) -> None:
     in_a_row = IN_A_ROW if float(rate) > 1000 else 1
     payload = json.dumps(TWIST).encode().ljust(int(size))
     with Node("flood", robot, bus) as node:
-        keys = cycle(f"robot/{robot}/{topic}" for topic in topics)
+        outlets = cycle([node.session.advertise(f"robot/{robot}/{topic}", False) for topic in topics])
         os.write(1, b"floods\n")
         due = time.monotonic()
         while True:
             for _ in range(in_a_row):
-                node.session.put(next(keys), payload, encoding=ENCODING)
+                next(outlets).put(payload, ENCODING, None)
             due += in_a_row / float(rate)
             time.sleep(max(0.0, due - time.monotonic()))
 

@@ -5,12 +5,11 @@ from collections.abc import Iterator
 from typing import Any
 
 import msgspec
-import zenoh
 
 from zteleop.bus import codec
 from zteleop.bus.escape import printable
 from zteleop.bus.names import resolve
-from zteleop.bus.session import open_session
+from zteleop.bus.session import Ring, Sample, open_session
 from zteleop.bus.topics import topic_of
 from zteleop.cli import options
 from zteleop.errors import BusError, MessageError
@@ -33,34 +32,34 @@ def run(arguments: argparse.Namespace) -> None:
         name = resolve(arguments.topic, robot or options.find_robot(session, settings))
         command = topic_of(name.path).command and "/" not in name.path
         key = f"{name.key}/**" if command else name.key
-        channel: Any = zenoh.handlers.RingChannel(DEPTH)
-        subscriber = session.declare_subscriber(key, channel)
-        for sample in _samples(subscriber, arguments.timeout, name.key):
+        for sample in _samples(session.subscribe(key, DEPTH), arguments.timeout, name.key):
             if _print(sample, arguments.json) and arguments.once:
                 return
 
 
-def _samples(subscriber: Any, timeout: float | None, key: str) -> Iterator[zenoh.Sample]:
-    if timeout is None:
-        yield from subscriber
-        return
+def _samples(ring: Ring, timeout: float | None, key: str) -> Iterator[Sample]:
+    while timeout is None:
+        try:
+            yield ring.recv()
+        except EOFError:  # the session is closed
+            return
     while True:
         give_up = time.monotonic() + timeout
-        while (sample := subscriber.try_recv()) is None:
+        while (sample := ring.try_recv()) is None:
             if not time.monotonic() <= give_up:  # NaN as well
                 raise BusError(f"nothing was said on {key} for {timeout:g} s; zteleop list shows the topics")
             time.sleep(0.002)
         yield sample
 
 
-def _print(sample: zenoh.Sample, as_json: bool) -> bool:
+def _print(sample: Sample, as_json: bool) -> bool:
     """Print a message; False when it cannot be read, which is said on stderr."""
-    if sample.kind != zenoh.SampleKind.PUT:
+    if not sample.is_put:
         return False
     try:
-        text = render(bytes(sample.payload), str(sample.encoding), as_json)
+        text = render(sample.payload, sample.encoding, as_json)
     except MessageError as error:
-        print(printable(f"{sample.key_expr}: {error}"), file=sys.stderr)
+        print(printable(f"{sample.key}: {error}"), file=sys.stderr)
         return False
     print(text, flush=True)
     return True

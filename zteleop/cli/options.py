@@ -3,7 +3,6 @@
 import argparse
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import msgspec
 
@@ -12,13 +11,10 @@ from zteleop.bus import presence
 from zteleop.bus.escape import printable
 from zteleop.bus.names import resolve, robot_name
 from zteleop.bus.node import Node
-from zteleop.bus.session import open_session
+from zteleop.bus.session import Session, open_session
 from zteleop.cli.salvage import salvage
 from zteleop.config import Config
 from zteleop.errors import ConfigError
-
-if TYPE_CHECKING:
-    import zenoh
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -83,7 +79,7 @@ def _with_typed(options: argparse.Namespace, settings: Config) -> Config:
     return msgspec.structs.replace(settings, bus=bus, robot=robot)
 
 
-def find_robot(session: "zenoh.Session", settings: Config) -> str:
+def find_robot(session: Session, settings: Config) -> str:
     """Return the robot meant: the one named, else the only one on the bus, else this machine's own.
 
     Raises ConfigError when there are several.
@@ -110,7 +106,7 @@ def join(name: str, settings: Config) -> Node:
     try:
         return Node(name, find_robot(session, settings), session=session)
     except BaseException:
-        session.close()  # type: ignore[no-untyped-call]
+        session.close()
         raise
 
 

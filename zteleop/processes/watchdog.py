@@ -11,7 +11,8 @@ from zteleop import config
 from zteleop.bus import presence
 from zteleop.bus.lane.ear import Ear
 from zteleop.bus.node import Node
-from zteleop.bus.session import ROBOT_ENDPOINT, BusSettings, open_session
+from zteleop.bus.session import open_session
+from zteleop.bus.settings import ROBOT_ENDPOINT, BusSettings
 from zteleop.config import Config
 from zteleop.drivers import PulseDriver, output_enable
 from zteleop.drivers.output_enable import OutputEnable

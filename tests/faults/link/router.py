@@ -3,10 +3,11 @@
 import signal
 import sys
 
-from zteleop.bus.session import BusSettings, open_session
+from zteleop.bus.settings import BusSettings
+from zteleop.bus.zenoh_session import open_zenoh
 
 if __name__ == "__main__":
-    with open_session(BusSettings(mode="router", listen=[sys.argv[1]], multicast=False)):
+    with open_zenoh(BusSettings(mode="router", listen=[sys.argv[1]], multicast=False)):
         sys.stdout.write("ready\n")
         sys.stdout.flush()
         signal.pause()

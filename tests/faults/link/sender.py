@@ -15,7 +15,7 @@ from faults.link.timecode import encode
 
 from zteleop.bus import clock
 from zteleop.bus.node import Node
-from zteleop.bus.session import BusSettings
+from zteleop.bus.settings import BusSettings
 from zteleop.messages import Pwm
 
 REST = Pwm(375, 370)

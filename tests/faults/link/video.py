@@ -8,7 +8,8 @@ import time
 
 import zenoh
 
-from zteleop.bus.session import BusSettings, open_session
+from zteleop.bus.settings import BusSettings
+from zteleop.bus.zenoh_session import open_zenoh
 
 KEY = "robot/bench/camera/image/compressed"
 PICTURE = bytes(1400)
@@ -16,7 +17,7 @@ PERIOD = 8 * len(PICTURE) / 2e6
 
 
 def send(endpoint: str) -> None:
-    with open_session(BusSettings(listen=[endpoint], multicast=False)) as session:
+    with open_zenoh(BusSettings(listen=[endpoint], multicast=False)) as session:
         pictures = session.declare_publisher(KEY, congestion_control=zenoh.CongestionControl.DROP)
         due = time.monotonic()
         while True:
@@ -27,7 +28,7 @@ def send(endpoint: str) -> None:
 
 def view(endpoint: str) -> None:
     """Say now and then how many pictures have come."""
-    with open_session(BusSettings(connect=[endpoint], multicast=False)) as session:
+    with open_zenoh(BusSettings(connect=[endpoint], multicast=False)) as session:
         pictures = session.declare_subscriber(KEY, zenoh.handlers.RingChannel(10))
         for number, _ in enumerate(pictures):
             if number % 50 == 0:

@@ -1,4 +1,4 @@
-"""The few zenoh objects that the bus uses, without a network."""
+"""A session without a network: it remembers what was declared on it."""
 
 from collections import deque
 from collections.abc import Iterable
@@ -8,6 +8,8 @@ from typing import Any
 import zenoh
 
 from zteleop.bus import codec
+from zteleop.bus.pump import Pump
+from zteleop.bus.session import Sample
 from zteleop.messages import Message
 
 
@@ -24,21 +26,18 @@ class Clock:
         self.time += seconds
 
 
-class Sample:
-    def __init__(
-        self,
-        payload: bytes,
-        encoding: str = "application/json;std_msgs/msg/String",
-        key: str = "robot/archangel/chatter",
-        attachment: bytes | None = None,
-        kind: zenoh.SampleKind = zenoh.SampleKind.PUT,
-    ) -> None:
-        self.payload, self.encoding, self.kind = payload, zenoh.Encoding(encoding), kind
-        self.key_expr, self.attachment = key, attachment
+def put(
+    payload: bytes,
+    encoding: str = "application/json;std_msgs/msg/String",
+    key: str = "robot/archangel/chatter",
+    attachment: bytes | None = None,
+    is_put: bool = True,
+) -> Sample:
+    return Sample(key, payload, encoding, attachment, is_put)
 
 
 def sample(message: Message, key: str = "robot/archangel/chatter", attachment: bytes | None = None) -> Sample:
-    return Sample(codec.encode(message), codec.encoding_of(type(message)), key, attachment)
+    return put(codec.encode(message), codec.encoding_of(type(message)), key, attachment)
 
 
 class Ring:
@@ -53,7 +52,7 @@ class Ring:
 
     def recv(self) -> Sample:
         if not self.samples:
-            raise zenoh.ZError("closed")
+            raise EOFError("closed")
         return self.samples.popleft()
 
     def try_recv(self) -> Sample | None:
@@ -64,54 +63,44 @@ class Put(SimpleNamespace):
     """What was put: payload, encoding and attachment."""
 
 
-class ZenohPublisher:
+class Outlet:
     def __init__(self) -> None:
         self.puts: list[Put] = []
-        self.matching_status = SimpleNamespace(matching=False)
+        self.matched = False
 
-    def put(self, payload: bytes, *, encoding: zenoh.Encoding, attachment: bytes | None) -> None:
-        self.puts.append(Put(payload=payload, encoding=str(encoding), attachment=attachment))
-
-
-class Liveliness:
-    def __init__(self, keys: Iterable[str] = ()) -> None:
-        self.keys = list(keys)
-
-        self.ring = Ring()
-
-    def declare_token(self, key: str) -> str:
-        self.keys.append(key)
-        return key
-
-    def declare_subscriber(self, key: str, handler: object, history: bool = False) -> "Ring":
-        return self.ring
-
-    def get(self, selector: str, timeout: float) -> list[Any]:
-        wanted = zenoh.KeyExpr(selector)
-        replies = [SimpleNamespace(ok=SimpleNamespace(key_expr=key)) for key in self.keys]
-        found = [reply for reply in replies if wanted.intersects(zenoh.KeyExpr(reply.ok.key_expr))]
-        return [*found, SimpleNamespace(ok=None)]
+    def put(self, payload: bytes, encoding: str, attachment: bytes | None) -> None:
+        self.puts.append(Put(payload=payload, encoding=encoding, attachment=attachment))
 
 
 class Session:
     """Remembers what was declared on it."""
 
     def __init__(self, tokens: Iterable[str] = ()) -> None:
-        self.alive = Liveliness(tokens)
+        self.alive, self.comings = list(tokens), Ring()
         self.rings: dict[str, Ring] = {}
-        self.publishers: dict[str, tuple[ZenohPublisher, dict[str, Any]]] = {}
+        self.outlets: dict[str, tuple[Outlet, bool]] = {}
         self.closed = False
 
-    def liveliness(self) -> Liveliness:
-        return self.alive
+    def declare_token(self, key: str) -> None:
+        self.alive.append(key)
 
-    def declare_subscriber(self, key: str, handler: object) -> Ring:
+    def tokens(self, selector: str) -> set[str]:
+        wanted = zenoh.KeyExpr(selector)
+        return {key for key in self.alive if wanted.intersects(zenoh.KeyExpr(key))}
+
+    def watch_tokens(self, selector: str, depth: int, history: bool = False) -> Ring:
+        return self.comings
+
+    def subscribe(self, key: str, depth: int) -> Ring:
         ring = self.rings.setdefault(key, Ring())
         ring.declared = True
         return ring
 
-    def declare_publisher(self, key: str, **qos: Any) -> ZenohPublisher:
-        return self.publishers.setdefault(key, (ZenohPublisher(), qos))[0]
+    def advertise(self, key: str, urgent: bool) -> Outlet:
+        return self.outlets.setdefault(key, (Outlet(), urgent))[0]
+
+    def deliver(self, inbox: Any, handler: Any, loop: Any, feed: Any) -> Pump:
+        return Pump(inbox, handler, loop, feed)
 
     def close(self) -> None:
         self.closed = True

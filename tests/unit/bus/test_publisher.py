@@ -1,5 +1,5 @@
 import pytest
-from unit.bus.fakes import Clock, Ring, ZenohPublisher, sample
+from unit.bus.fakes import Clock, Outlet, Ring, sample
 
 from zteleop.bus import codec
 from zteleop.bus.answer import Answer
@@ -40,7 +40,7 @@ class Operator:
     """A publisher of commands, the beats it hears, and what came out."""
 
     def __init__(self) -> None:
-        self.beats, self.listened, self.zenoh = Ring(), 0, ZenohPublisher()
+        self.beats, self.listened, self.outlet = Ring(), 0, Outlet()
         beats: Subscription[Beat] = Subscription(self.beats, codec.decoders([Beat]), pytest.fail)
         self.vehicles, self.refusals = Ring(), Ring()
         vehicles: Subscription[Vehicle] = Subscription(self.vehicles, codec.decoders([Vehicle]), pytest.fail)
@@ -50,7 +50,7 @@ class Operator:
         self.heard = Heard(beats, vehicles, refusals)
         answer = Answer("ff", "cmd_vel", "archangel", self.heard, NodeLog("nose", lambda log: None, print))
         kinds = (Twist, TwistStamped, Pwm, Int16MultiArray)
-        self.publisher = Publisher(self.zenoh, kinds, Prover(255), self.heard, self.listen, answer)
+        self.publisher = Publisher(self.outlet, kinds, Prover(255), self.heard, self.listen, answer)
 
     def listen(self) -> None:
         self.listened += 1
@@ -61,7 +61,7 @@ class Operator:
 
     @property
     def proof(self) -> Proof | None:
-        attachment = self.zenoh.puts[-1].attachment
+        attachment = self.outlet.puts[-1].attachment
         return codec.unpack_proof(attachment) if attachment is not None else None
 
 
@@ -75,10 +75,10 @@ def ticks(*data: int) -> Int16MultiArray:
 
 
 def test_a_message_goes_out_with_its_type_and_no_proof_where_none_is_asked_for() -> None:
-    zenoh = ZenohPublisher()
-    publisher = Publisher(zenoh, (String,))
+    outlet = Outlet()
+    publisher = Publisher(outlet, (String,))
     publisher.publish(String("hello"))
-    (put,) = zenoh.puts
+    (put,) = outlet.puts
     assert (put.payload, put.encoding) == (b'{"data":"hello"}', "application/json;std_msgs/msg/String")
     assert put.attachment is None
     assert publisher.sender == ""
@@ -87,7 +87,7 @@ def test_a_message_goes_out_with_its_type_and_no_proof_where_none_is_asked_for()
 def test_each_type_a_topic_takes_goes_out_under_its_own_name(operator: Operator) -> None:
     operator.publisher.publish(FORWARD)
     operator.publisher.publish(Pwm(1, 2))
-    assert [put.encoding.rpartition("/")[2] for put in operator.zenoh.puts] == ["Twist", "Pwm"]
+    assert [put.encoding.rpartition("/")[2] for put in operator.outlet.puts] == ["Twist", "Pwm"]
 
 
 @pytest.mark.parametrize("message", [String("x"), Beat(1, 2.0, 0.0), Twist, None])
@@ -97,13 +97,13 @@ def test_another_type_is_refused_by_name(operator: Operator, message: Message) -
         match=f"expected {KINDS}, found {type(message).__name__}",
     ):
         operator.publisher.publish(message)
-    assert operator.zenoh.puts == []
+    assert operator.outlet.puts == []
 
 
 def test_what_is_not_finite_is_refused(operator: Operator) -> None:
     with pytest.raises(MessageError, match=r"found nan at Twist.linear.x"):
         operator.publisher.publish(Twist.planar(float("nan")))
-    assert operator.zenoh.puts == []
+    assert operator.outlet.puts == []
 
 
 def test_before_the_first_beat_there_is_no_proof(operator: Operator) -> None:
@@ -175,7 +175,7 @@ def test_who_lets_go_says_neutral_of_its_own_type_and_begins_anew(
         operator.publisher.publish(message)
     assert operator.proof.began == 10.0
     operator.publisher.let_go()
-    last = operator.zenoh.puts[-1]
+    last = operator.outlet.puts[-1]
     said = codec.decode(last.payload, last.encoding, codec.decoders([type(message)]))
     assert type(said) is type(message)
     assert not moves(said, CAR)
@@ -194,7 +194,7 @@ def test_pulses_of_an_unknown_neutral_let_go_in_silence_and_begin_anew(
     operator.beat(10.0)
     operator.publisher.publish(Pwm(390, 400))
     operator.publisher.let_go()
-    assert len(operator.zenoh.puts) == 1
+    assert len(operator.outlet.puts) == 1
     operator.beat(10.1)
     operator.publisher.publish(Pwm(390, 400))
     assert operator.proof.began == 10.1
@@ -214,10 +214,10 @@ def test_neutral_pulses_end_a_claim_although_the_robot_has_not_said_what_neutral
 
 
 def test_who_commands_nothing_has_nothing_to_let_go() -> None:
-    zenoh = ZenohPublisher()
-    publisher = Publisher(zenoh, (String,))
+    outlet = Outlet()
+    publisher = Publisher(outlet, (String,))
     publisher.let_go()
-    assert (zenoh.puts, publisher.refused) == ([], "")
+    assert (outlet.puts, publisher.refused) == ([], "")
 
 
 def test_whoever_publishes_hears_that_it_is_refused(operator: Operator) -> None:
@@ -242,7 +242,7 @@ def test_the_sender_is_called_as_the_robot_calls_it(operator: Operator) -> None:
 
 @pytest.mark.parametrize("matching", [True, False])
 def test_somebody_hears_when_somebody_subscribes(operator: Operator, matching: bool) -> None:
-    operator.zenoh.matching_status.matching = matching
+    operator.outlet.matched = matching
     assert operator.publisher.matched is matching
 
 

@@ -1,15 +1,10 @@
 """An inbox and its pump, with the ring in the test's hands and no thread."""
 
-import threading
-from collections.abc import Callable
-
 import pytest
-import zenoh
-from unit.bus.fakes import Clock, Ring, Sample, sample
+from unit.bus.fakes import Clock, Ring, Sample, put, sample
 
 from zteleop.bus import codec
-from zteleop.bus.loop import Loop
-from zteleop.bus.subscription import Pump, Received, Subscription
+from zteleop.bus.subscription import Received, Subscription
 from zteleop.control.proof import Proof
 from zteleop.messages import Pwm, String
 
@@ -54,13 +49,13 @@ def test_any_other_attachment_is_no_proof(inbox: Inbox, attachment: bytes | None
 @pytest.mark.parametrize(
     ("bad", "words"),
     [
-        (Sample(b'{"data":"x"}', kind=zenoh.SampleKind.DELETE), "a delete or a wildcard is no message"),
-        (Sample(b'{"data":"x"}', key="robot/*/chatter"), "a delete or a wildcard is no message"),
-        (Sample(b'{"data":"x"}', key="robot/**"), "a delete or a wildcard is no message"),
+        (put(b'{"data":"x"}', is_put=False), "a delete or a wildcard is no message"),
+        (put(b'{"data":"x"}', key="robot/*/chatter"), "a delete or a wildcard is no message"),
+        (put(b'{"data":"x"}', key="robot/**"), "a delete or a wildcard is no message"),
         (sample(Pwm(1, 2)), "expected std_msgs/msg/String, found 'zteleop_msgs/msg/Pwm'"),
-        (Sample(b"{}"), "not a std_msgs/msg/String: Object missing required field `data`"),
+        (put(b"{}"), "not a std_msgs/msg/String: Object missing required field `data`"),
         (
-            Sample(b'{"data":"x"}', encoding="zenoh/bytes"),
+            put(b'{"data":"x"}', encoding="zenoh/bytes"),
             "expected std_msgs/msg/String, found",
         ),
     ],
@@ -70,11 +65,11 @@ def test_what_is_no_message_is_dropped_counted_and_said(inbox: Inbox, bad: Sampl
     for count in (1, 2):
         assert inbox.read(bad) is None
         assert inbox.subscription.dropped == count
-        assert inbox.complaints[-1].startswith(f"{bad.key_expr}: dropped: {words}")
+        assert inbox.complaints[-1].startswith(f"{bad.key}: dropped: {words}")
 
 
 def test_take_empties_the_ring_and_leaves_out_what_is_no_message() -> None:
-    inbox = Inbox(sample(String("a")), Sample(b"{}"), sample(String("b")))
+    inbox = Inbox(sample(String("a")), put(b"{}"), sample(String("b")))
     assert [received.message.data for received in inbox.subscription.take()] == ["a", "b"]
     assert inbox.subscription.dropped == 1
     assert not inbox.ring.samples
@@ -87,154 +82,10 @@ def test_newest_is_the_last_since_the_last_look() -> None:
 
 
 def test_a_bad_message_does_not_hide_the_one_before() -> None:
-    inbox = Inbox(sample(String("a")), Sample(b"{}"))
+    inbox = Inbox(sample(String("a")), put(b"{}"))
     assert inbox.subscription.newest() == String("a")
 
 
 def test_iteration_ends_with_the_session() -> None:
-    inbox = Inbox(sample(String("a")), Sample(b"{}"), sample(String("b")))
+    inbox = Inbox(sample(String("a")), put(b"{}"), sample(String("b")))
     assert list(inbox.subscription) == [String("a"), String("b")]
-
-
-class Lock:
-    """A threading.Lock that tells instead of waiting."""
-
-    def __init__(self) -> None:
-        self.held = False
-
-    def acquire(self, blocking: bool = True) -> bool:
-        assert not (blocking and self.held), "waits for ever"
-        free, self.held = not self.held, True
-        return free
-
-    def release(self) -> None:
-        if not self.held:
-            raise RuntimeError("release unlocked lock")
-        self.held = False
-
-
-class Thread:
-    """A thread whose work is done when the test says so."""
-
-    def __init__(self, target: Callable[[], None], name: str, daemon: bool) -> None:
-        assert daemon
-        self.run, self.started = target, False
-
-    def start(self) -> None:
-        self.started = True
-
-    def join(self) -> None:
-        pass
-
-
-@pytest.fixture
-def threads(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(threading, "Thread", Thread)
-    monkeypatch.setattr(threading, "Lock", Lock)
-
-
-class Obedient:
-    """A loop that runs at once what it is called for."""
-
-    def __init__(self) -> None:
-        self.next: Callable[[], object] | None = None
-        self.failure: BaseException | None = None
-
-    def fail(self, error: BaseException) -> None:
-        self.failure = error
-
-    def call_soon(self, action: Callable[[], object]) -> None:
-        self.next = action
-        while action := self.next:
-            self.next = None
-            action()
-
-    def call_next(self, action: Callable[[], object]) -> None:
-        self.next = action
-
-
-@pytest.mark.usefixtures("threads", "clock")
-class TestPump:
-    def test_a_sample_that_wakes_the_pump_is_handled_in_the_loop(self) -> None:
-        inbox, heard = Inbox(sample(String("a"))), []
-        loop = Loop(before_each=lambda: heard.append("look"))
-        pump = Pump(inbox.subscription, lambda received: heard.append(received.message.data), loop)
-        assert pump._thread.started
-        with pytest.raises(AssertionError, match="waits for ever"):
-            pump._wait()
-        assert heard == []
-        inbox.ring.samples.append(sample(String("b")))
-        loop.run_once()
-        assert heard == ["look", "a"]
-        assert pump._emptied.held
-        loop.run_once()
-        assert heard == ["look", "a", "look", "b"]
-        assert not pump._emptied.held
-        loop.close()
-
-    def test_a_flood_is_one_message_a_round(self) -> None:
-        inbox, heard = Inbox(*(sample(String(str(number))) for number in range(9))), []
-        loop = Obedient()
-        pump = Pump(inbox.subscription, lambda received: heard.append(received.message.data), loop)
-        pump._sample = inbox.ring.recv()
-        for number in range(4):
-            pump._hand_over()
-            assert heard[number:] == [str(number)]
-        assert loop.next == pump._hand_over
-        assert pump._emptied.held
-
-    def test_what_is_no_message_takes_its_turn_too(self) -> None:
-        inbox, heard = Inbox(*[Sample(b"{}")] * 9), []
-        pump = Pump(inbox.subscription, heard.append, Obedient())
-        pump._sample = inbox.ring.recv()
-        pump._hand_over()
-        assert (heard, inbox.subscription.dropped) == ([], 1)
-
-    def test_it_goes_round_until_the_session_is_closed(self) -> None:
-        inbox, heard = Inbox(*(sample(String(str(number))) for number in range(9))), []
-        Pump(
-            inbox.subscription, lambda received: heard.append(received.message.data), Obedient()
-        )._thread.run()
-        assert heard == [str(number) for number in range(9)]
-
-    def test_an_error_in_a_handler_does_not_end_the_pump(self) -> None:
-        inbox = Inbox(sample(String("a")))
-        pump = Pump(inbox.subscription, lambda received: 1 / 0, Obedient())
-        pump._sample = inbox.ring.recv()
-        with pytest.raises(ZeroDivisionError):
-            pump._hand_over()
-        assert not pump._emptied.held
-
-    def test_its_thread_first_does_what_it_was_told(self) -> None:
-        inbox, told = Inbox(sample(String("a"))), []
-        handler = lambda received: told.append(received.message.data)  # noqa: E731
-        Pump(inbox.subscription, handler, Obedient(), lambda: told.append("begins"))._thread.run()
-        assert told == ["begins", "a"]
-
-    def test_after_a_close_it_waits_for_nobody(self) -> None:
-        inbox = Inbox()
-        pump = Pump(inbox.subscription, pytest.fail, Obedient())
-        pump.close()
-        pump._thread.run()
-
-    def test_a_close_just_after_a_sample_came_does_not_hang(self) -> None:
-        """Node.close closes the session, then each pump: the last sample may be in the pump's hand."""
-        inbox = Inbox(sample(String("a")))
-        pump = Pump(inbox.subscription, pytest.fail, Loop(before_each=pytest.fail))
-
-        def receive() -> Sample:
-            got = Ring.recv(inbox.ring)
-            pump.close()
-            return got
-
-        inbox.ring.recv = receive
-        try:
-            pump._thread.run()
-        finally:
-            pump._loop.close()
-
-    def test_an_error_of_its_own_ends_the_loop_for_nobody_else_would_empty_the_inbox(self) -> None:
-        inbox, loop = Inbox(), Obedient()
-        inbox.ring.recv = lambda: 1 / 0
-        Pump(inbox.subscription, pytest.fail, loop)._thread.run()
-        assert isinstance(loop.failure, ZeroDivisionError)

@@ -1,8 +1,7 @@
 from typing import Any
 
 import pytest
-import zenoh
-from unit.bus.fakes import Clock, Ring, Sample, Session
+from unit.bus.fakes import Clock, Ring, Sample, Session, put
 
 from zteleop.bus import tap as module
 from zteleop.bus.tap import Raw, Tap
@@ -15,11 +14,9 @@ class Bench:
         self.session: Any = Session()
         self.tap = Tap(self.session, "archangel", ["stop", "beat"])
 
-    def announce(
-        self, *paths: str, process: str = "host-1", kind: zenoh.SampleKind = zenoh.SampleKind.PUT
-    ) -> None:
+    def announce(self, *paths: str, process: str = "host-1", is_put: bool = True) -> None:
         keys = [f"{PREFIX}live/pub/nose/{process}/any/{path}" for path in paths]
-        self.session.alive.ring.samples.extend(Sample(b"", key=key, kind=kind) for key in keys)
+        self.session.comings.samples.extend(put(b"", key=key, is_put=is_put) for key in keys)
 
     def say(self, path: str, *samples: Sample) -> None:
         self.session.rings[PREFIX + path].samples.extend(samples)
@@ -34,24 +31,24 @@ def bench(clock: Clock) -> Bench:
 
 
 def test_a_message_is_taken_in_its_bytes(bench: Bench, clock: Clock) -> None:
-    bench.say("stop", Sample(b"\xff", "text/plain", f"{PREFIX}stop", b"proof"))
+    bench.say("stop", put(b"\xff", "text/plain", f"{PREFIX}stop", b"proof"))
     assert list(bench.tap.take()) == [Raw(clock.time, "stop", "text/plain", b"\xff", b"proof", False)]
 
 
 def test_without_an_attachment_there_are_no_bytes_of_it(bench: Bench) -> None:
-    bench.say("stop", Sample(b"", key=f"{PREFIX}stop"))
+    bench.say("stop", put(b"", key=f"{PREFIX}stop"))
     assert next(bench.tap.take()).attachment == b""
 
 
 def test_a_delete_is_told_apart(bench: Bench) -> None:
-    bench.say("stop", Sample(b"", key=f"{PREFIX}stop", kind=zenoh.SampleKind.DELETE))
+    bench.say("stop", put(b"", key=f"{PREFIX}stop", is_put=False))
     assert next(bench.tap.take()).deleted
 
 
 def test_what_a_node_says_that_it_publishes_is_heard_from_then_on(bench: Bench) -> None:
     bench.announce("lidar/front", "lidar/front", "stop")
     assert bench.paths() == []
-    bench.say("lidar/front", Sample(b"", key=f"{PREFIX}lidar/front"))
+    bench.say("lidar/front", put(b"", key=f"{PREFIX}lidar/front"))
     assert bench.paths() == ["lidar/front"]
 
 
@@ -60,8 +57,8 @@ def test_a_path_that_nobody_publishes_on_any_more_gives_its_place_back(bench: Be
         bench.announce("lidar/front", process=process)
     assert bench.paths() == []
     for process, held in (("host-1", True), ("host-2", False)):
-        bench.announce("lidar/front", process=process, kind=zenoh.SampleKind.DELETE)
-        bench.say("lidar/front", Sample(b"", key=f"{PREFIX}lidar/front"))
+        bench.announce("lidar/front", process=process, is_put=False)
+        bench.say("lidar/front", put(b"", key=f"{PREFIX}lidar/front"))
         assert bench.paths() == ["lidar/front"], "its last words count"
         assert bench.session.rings[f"{PREFIX}lidar/front"].declared is held
 
@@ -69,7 +66,7 @@ def test_a_path_that_nobody_publishes_on_any_more_gives_its_place_back(bench: Be
 def test_a_known_path_is_heard_whoever_publishes(bench: Bench) -> None:
     bench.announce("stop")
     assert bench.paths() == []
-    bench.announce("stop", kind=zenoh.SampleKind.DELETE)
+    bench.announce("stop", is_put=False)
     assert bench.paths() == []
     assert bench.session.rings[f"{PREFIX}stop"].declared
 
@@ -88,17 +85,17 @@ def test_announcements_without_end_are_not_all_heard(bench: Bench) -> None:
 
 def test_a_wildcard_is_taken_under_its_whole_key(bench: Bench) -> None:
     keys = ["robot/*/stop", f"{PREFIX}*", f"{PREFIX}**"]
-    bench.say("stop", *(Sample(b"", key=key) for key in keys))
+    bench.say("stop", *(put(b"", key=key) for key in keys))
     assert bench.paths() == keys
 
 
 def test_a_flood_leaves_the_others_their_turn(bench: Bench) -> None:
     class Endless(Ring):
         def try_recv(self) -> Sample:
-            return Sample(b"", key=f"{PREFIX}stop")
+            return put(b"", key=f"{PREFIX}stop")
 
     bench.tap._inboxes["stop"] = Endless()
-    bench.say("beat", Sample(b"", key=f"{PREFIX}beat"))
+    bench.say("beat", put(b"", key=f"{PREFIX}beat"))
     assert bench.paths() == ["stop"] * module.DEPTH + ["beat"]
 
 
@@ -112,16 +109,16 @@ def test_what_was_commanded_is_told_before_what_came_of_it_however_they_arrive(b
         def try_recv(self) -> Sample | None:
             said = super().try_recv()
             if said:
-                bench.say("pwm/keyboard", Sample(b"", key=f"{PREFIX}pwm/keyboard"))
+                bench.say("pwm/keyboard", put(b"", key=f"{PREFIX}pwm/keyboard"))
             return said
 
-    bench.tap._inboxes["drive_status"] = Late(Sample(b"", key=f"{PREFIX}drive_status"))
-    bench.say("beat", Sample(b"", key=f"{PREFIX}beat"))
+    bench.tap._inboxes["drive_status"] = Late(put(b"", key=f"{PREFIX}drive_status"))
+    bench.say("beat", put(b"", key=f"{PREFIX}beat"))
     assert bench.paths() == ["pwm/keyboard", "beat", "drive_status"]
 
 
 def test_a_flooded_path_is_not_heard_for_a_while_and_then_again(bench: Bench, clock: Clock) -> None:
-    said = Sample(b"", key=f"{PREFIX}stop")
+    said = put(b"", key=f"{PREFIX}stop")
     bench.say("stop", *[said] * module.FLOOD)
     assert bench.paths() == ["stop"] * module.FLOOD
     assert not bench.session.rings[f"{PREFIX}stop"].declared

@@ -1,7 +1,6 @@
 import pytest
 import yaml
-import zenoh
-from unit.bus.fakes import Clock, Ring, Sample, sample
+from unit.bus.fakes import Clock, Ring, put, sample
 
 from zteleop.cli import echo
 from zteleop.errors import BusError
@@ -29,7 +28,7 @@ def test_what_could_steer_a_terminal_is_escaped(text: str, capsys: pytest.Captur
 
 
 def test_what_cannot_be_read_is_said_on_stderr_escaped(capsys: pytest.CaptureFixture[str]) -> None:
-    bad = Sample(b"\x00\x01", encoding="zenoh/bytes", key="robot/abe/\x1b[2J")
+    bad = put(b"\x00\x01", encoding="zenoh/bytes", key="robot/abe/\x1b[2J")
     assert not echo._print(bad, as_json=False)
     out, err = capsys.readouterr()
     assert out == ""
@@ -37,7 +36,7 @@ def test_what_cannot_be_read_is_said_on_stderr_escaped(capsys: pytest.CaptureFix
 
 
 def test_a_delete_is_no_message(capsys: pytest.CaptureFixture[str]) -> None:
-    assert not echo._print(Sample(b"{}", kind=zenoh.SampleKind.DELETE), as_json=False)
+    assert not echo._print(put(b"{}", is_put=False), as_json=False)
     assert capsys.readouterr() == ("", "")
 
 
@@ -55,11 +54,11 @@ def test_it_gives_up_after_so_long_a_silence(clock: Clock, monkeypatch: pytest.M
 
 def test_without_a_timeout_it_hears_until_the_end() -> None:
     samples = [sample(String("a")), sample(String("b"))]
-    assert list(echo._samples(iter(samples), None, "key")) == samples
+    assert list(echo._samples(Ring(*samples), None, "key")) == samples
 
 
 def test_what_is_nested_too_deeply_for_yaml_is_said_and_no_end(capsys: pytest.CaptureFixture[str]) -> None:
-    deep = Sample(b"[" * 900 + b"]" * 900, encoding="application/json", key="robot/abe/odom")
+    deep = put(b"[" * 900 + b"]" * 900, encoding="application/json", key="robot/abe/odom")
     assert not echo._print(deep, as_json=False)
     assert "1800 bytes of 'application/json', nested too deeply to show" in capsys.readouterr().err
     assert echo._print(deep, as_json=True)

@@ -8,7 +8,7 @@ from unit.bus.fakes import Session
 
 from zteleop import config
 from zteleop.bus import presence
-from zteleop.bus.session import BusSettings
+from zteleop.bus.settings import BusSettings
 from zteleop.cli import options
 from zteleop.config import Config
 from zteleop.errors import ConfigError

@@ -2,7 +2,7 @@ from pathlib import Path
 
 import pytest
 
-from zteleop.bus.session import BusSettings
+from zteleop.bus.settings import BusSettings
 from zteleop.cli.salvage import salvage
 from zteleop.config import Config
 from zteleop.control.stick import Speeds

@@ -9,7 +9,7 @@ import msgspec
 import pytest
 from unit.nodes.fakes import Node
 
-from zteleop.bus.session import BusSettings
+from zteleop.bus.settings import BusSettings
 from zteleop.config import Config
 from zteleop.control.standing import Standing
 from zteleop.errors import ConfigError, DeviceError

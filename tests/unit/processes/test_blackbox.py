@@ -10,7 +10,7 @@ import msgspec
 import pytest
 from unit.nodes.fakes import Node
 
-from zteleop.bus.session import BusSettings
+from zteleop.bus.settings import BusSettings
 from zteleop.config import Config
 from zteleop.machine import signals
 from zteleop.processes import blackbox

@@ -8,7 +8,7 @@ from unit.bus.fakes import Session
 
 from zteleop.bus import presence
 from zteleop.bus.node import Node
-from zteleop.bus.session import ROBOT_ENDPOINT, BusSettings
+from zteleop.bus.settings import ROBOT_ENDPOINT, BusSettings
 from zteleop.errors import DeviceError
 from zteleop.processes import watchdog
 
@@ -24,7 +24,7 @@ def join(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Any]:
 
         def node(*arguments: Any, **options: Any) -> Node:
             late = [f"robot/archangel/live/node/watchdog/{holder}" for holder in meanwhile]
-            session.alive.keys += late
+            session.alive += late
             node = Node(*arguments, **options)
             node.warnings = []
             monkeypatch.setattr(node.log, "warn", node.warnings.append)

@@ -9,7 +9,7 @@ from typing import Self
 from zteleop.bus.lane import places, wire
 from zteleop.bus.lane.places import Place
 from zteleop.bus.lane.wire import Answered, Asked
-from zteleop.bus.session import SAME_MACHINE, BusSettings
+from zteleop.bus.settings import SAME_MACHINE, BusSettings
 from zteleop.messages import Stop
 
 _MOST = 100

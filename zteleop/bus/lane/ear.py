@@ -10,7 +10,7 @@ from typing import NamedTuple
 from zteleop.bus.lane import places, wire
 from zteleop.bus.lane.places import Place
 from zteleop.bus.lane.wire import Answered, Asked
-from zteleop.bus.session import BusSettings
+from zteleop.bus.settings import BusSettings
 from zteleop.control.allowance import Allowance
 
 READ, OF_ONE = 64, 8

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from contextlib import suppress
 from typing import NamedTuple
 
-from zteleop.bus.session import PORT
+from zteleop.bus.settings import PORT
 
 GROUP, GROUP_PORT = "239.255.74.47", PORT + 1
 """of the organisation-local scope (RFC 2365); no router passes it on, as its time to live is 1;

@@ -15,7 +15,7 @@ from zteleop.bus.lane.call import Call
 from zteleop.bus.lane.ear import Ear, Heard
 from zteleop.bus.lane.places import Place
 from zteleop.bus.lane.wire import LONGEST, Answered, Asked, pack, unpack_answered
-from zteleop.bus.session import BusSettings
+from zteleop.bus.settings import BusSettings
 from zteleop.messages import Stop
 
 STOP = Stop(True, 7, "ann@desk", "a cat")

@@ -11,8 +11,10 @@ import pytest
 import zenoh
 from unit.bus.fakes import Clock
 
-from zteleop.bus import session
-from zteleop.bus.session import IF_FREE, ROBOT_ENDPOINT, SAME_MACHINE, BusSettings, open_session
+from zteleop.bus import zenoh_session as module
+from zteleop.bus.session import Sample
+from zteleop.bus.settings import IF_FREE, ROBOT_ENDPOINT, SAME_MACHINE, BusSettings
+from zteleop.bus.zenoh_session import ZenohOutlet, ZenohRing, ZenohSession, open_zenoh
 from zteleop.errors import BusError, ConfigError
 
 
@@ -31,9 +33,9 @@ def opened(clock: Clock, monkeypatch: pytest.MonkeyPatch) -> Callable[..., list[
             return result
 
         monkeypatch.setattr(zenoh, "open", open_)
-        monkeypatch.setattr(session.linger, "forbid", lambda session: None)
-        monkeypatch.setattr(session.time, "monotonic", clock.now)
-        monkeypatch.setattr(session.time, "sleep", clock.pass_by)
+        monkeypatch.setattr(module.linger, "forbid", lambda session: None)
+        monkeypatch.setattr(module.time, "monotonic", clock.now)
+        monkeypatch.setattr(module.time, "sleep", clock.pass_by)
         return configs
 
     return prepare
@@ -44,7 +46,7 @@ def value(config: zenoh.Config, key: str) -> Any:
 
 
 def configure(**settings: Any) -> Callable[[str], Any]:
-    config = session._configure(BusSettings(**settings), False)
+    config = module._configure(BusSettings(**settings), False)
     return lambda key: value(config, key)
 
 
@@ -86,16 +88,16 @@ def test_a_robot_starts_even_when_its_usual_port_is_taken() -> None:
         taken.listen()
         endpoint = f"tcp/[::]:{taken.getsockname()[1]}"
         with pytest.raises(BusError, match="already in use"):
-            open_session(BusSettings(listen=[endpoint], multicast=False))
-        open_session(BusSettings(listen=[f"{endpoint}{IF_FREE}", "tcp/[::]:0"], multicast=False)).close()
+            open_zenoh(BusSettings(listen=[endpoint], multicast=False))
+        open_zenoh(BusSettings(listen=[f"{endpoint}{IF_FREE}", "tcp/[::]:0"], multicast=False)).close()
     assert ROBOT_ENDPOINT.endswith(IF_FREE)
 
 
 def test_only_who_settles_waits_for_others(opened: Callable[..., list[zenoh.Config]]) -> None:
     alone = SimpleNamespace(info=SimpleNamespace(peers_zid=list, routers_zid=list))
     configs = opened(alone)
-    assert open_session(BusSettings()) is alone
-    assert open_session(BusSettings(), settle=True) is alone
+    assert open_zenoh(BusSettings()) is alone
+    assert open_zenoh(BusSettings(), settle=True) is alone
     assert [value(config, "scouting/delay") for config in configs] == [0, 500]
 
 
@@ -108,14 +110,14 @@ def test_it_settles_when_nobody_new_has_been_found_for_a_while(
         routers_zid=lambda: ["r"] if clock.time > start + 0.1 else [],
     )
     opened(SimpleNamespace(info=found))
-    open_session(BusSettings(), settle=True)
+    open_zenoh(BusSettings(), settle=True)
     assert clock.time == pytest.approx(start + 0.16, abs=0.02)
 
 
 def test_a_client_waits_for_its_router(opened: Callable[..., list[zenoh.Config]], clock: Clock) -> None:
     start = clock.time
     configs = opened(zenoh.ZError("nobody"), zenoh.ZError("nobody"), "a session")
-    assert open_session(BusSettings(mode="client")) == "a session"
+    assert open_zenoh(BusSettings(mode="client")) == "a session"
     assert len(configs) == 3
     assert clock.time == pytest.approx(start + 0.2)
 
@@ -124,7 +126,7 @@ def test_a_client_gives_up_in_words(opened: Callable[..., list[zenoh.Config]], c
     start = clock.time
     opened(zenoh.ZError("Unable to connect at /src/zenoh/x.rs:1"))
     with pytest.raises(BusError) as error:
-        open_session(BusSettings(mode="client", connect=["tcp/a:1", "tcp/b:2"], patience=1.0))
+        open_zenoh(BusSettings(mode="client", connect=["tcp/a:1", "tcp/b:2"], patience=1.0))
     assert str(error.value) == (
         "no router found (tcp/a:1, tcp/b:2); is the robot on, and its address right? (Unable to connect)"
     )
@@ -137,7 +139,7 @@ def test_a_peer_that_cannot_open_says_why_at_once(
     start = clock.time
     opened(zenoh.ZError("Address already in use at /src/zenoh/x.rs:1"))
     with pytest.raises(BusError, match=r"^cannot open the bus: Address already in use$"):
-        open_session(BusSettings())
+        open_zenoh(BusSettings())
     assert clock.time == start
 
 
@@ -147,7 +149,7 @@ def test_a_peer_that_cannot_open_says_why_at_once(
 )
 def test_what_is_no_endpoint_is_refused_by_name(field: str, text: str) -> None:
     with pytest.raises(ConfigError, match=f"an endpoint is such as tcp/.*, found {re.escape(repr(text))}"):
-        open_session(BusSettings(**{field: [text]}))
+        open_zenoh(BusSettings(**{field: [text]}))
 
 
 @pytest.mark.parametrize("values", [{"mode": "boss"}, {"connect": "tcp/a:1"}, {"patience": "long"}, {"x": 1}])
@@ -165,7 +167,7 @@ def test_patience_is_a_time_that_can_pass() -> None:
 def test_who_passes_messages_on_waits_for_no_client_that_stands_still() -> None:
     key = "transport/link/tx/queue/congestion_control/block/wait_before_close"
     for settings, door in ((BusSettings(), True), (BusSettings(mode="router"), False)):
-        assert value(session._configure(settings, False, door), key) <= 100_000
+        assert value(module._configure(settings, False, door), key) <= 100_000
 
 
 @pytest.mark.parametrize(
@@ -186,17 +188,17 @@ def test_threads_that_zenoh_would_die_of_are_refused_in_words(
     tried = opened("session")
     monkeypatch.setenv("ZENOH_RUNTIME", threads)
     with pytest.raises(ConfigError, match=r"^ZENOH_RUNTIME is such as .*; correct it, or unset it$"):
-        open_session(BusSettings())
+        open_zenoh(BusSettings())
     assert not tried
 
 
-@pytest.mark.parametrize("threads", ["", "(rx:(worker_threads:2))", session._APART, session._ONE_THREAD])
+@pytest.mark.parametrize("threads", ["", "(rx:(worker_threads:2))", module._APART, module._ONE_THREAD])
 def test_threads_that_somebody_chose_are_taken(
     monkeypatch: pytest.MonkeyPatch, opened: Callable[..., Any], threads: str
 ) -> None:
     opened("session")
     monkeypatch.setenv("ZENOH_RUNTIME", threads)
-    assert open_session(BusSettings()) == "session"
+    assert open_zenoh(BusSettings()) == "session"
 
 
 def test_an_endpoint_that_zenoh_refuses_is_one_sentence() -> None:
@@ -204,3 +206,85 @@ def test_an_endpoint_that_zenoh_refuses_is_one_sentence() -> None:
         configure(connect=["tcp/pi.local:7447?"])
     assert "tcp/pi.local:7447?" in str(found.value)
     assert "cargo" not in str(found.value)
+
+
+class Zenoh:
+    """A session of zenoh that remembers how it was asked."""
+
+    def __init__(self) -> None:
+        self.asked: dict[str, Any] = {}
+
+    def declare_publisher(self, key: str, **qos: Any) -> str:
+        self.asked[key] = qos
+        return key
+
+    def declare_subscriber(self, key: str, handler: object) -> "Subscriber":
+        return Subscriber()
+
+
+class Subscriber:
+    """Hears one sample, and then the end."""
+
+    def __init__(self) -> None:
+        self.samples = [
+            SimpleNamespace(
+                key_expr=zenoh.KeyExpr("robot/abe/odom"),
+                payload=zenoh.ZBytes(b"{}"),
+                encoding=zenoh.Encoding("text/plain"),
+                attachment=None,
+                kind=zenoh.SampleKind.PUT,
+            ),
+            SimpleNamespace(
+                key_expr=zenoh.KeyExpr("robot/abe/odom"),
+                payload=zenoh.ZBytes(b""),
+                encoding=zenoh.Encoding("text/plain"),
+                attachment=zenoh.ZBytes(b"proof"),
+                kind=zenoh.SampleKind.DELETE,
+            ),
+        ]
+
+    def recv(self) -> object:
+        if not self.samples:
+            raise zenoh.ZError("closed")
+        return self.samples.pop(0)
+
+    def try_recv(self) -> object:
+        return self.samples.pop(0) if self.samples else None
+
+
+def test_what_is_urgent_overtakes_and_everything_may_be_dropped() -> None:
+    zenoh_itself: Any = Zenoh()
+    session = ZenohSession(zenoh_itself)
+    session.advertise("stop", True)
+    session.advertise("odom", False)
+    urgent, plain = zenoh_itself.asked["stop"], zenoh_itself.asked["odom"]
+    assert (urgent["priority"], urgent["express"]) == (zenoh.Priority.REAL_TIME, True)
+    assert (plain["priority"], plain["express"]) == (zenoh.Priority.DATA, False)
+    assert all(qos["congestion_control"] == zenoh.CongestionControl.DROP for qos in (urgent, plain))
+
+
+@pytest.mark.parametrize("how", ["recv", "try_recv"])
+def test_a_sample_is_plain(how: str) -> None:
+    ring: Any = ZenohRing(Subscriber())  # type: ignore[arg-type]
+    assert getattr(ring, how)() == Sample("robot/abe/odom", b"{}", "text/plain")
+    assert getattr(ring, how)() == Sample("robot/abe/odom", b"", "text/plain", b"proof", False)
+
+
+def test_a_ring_without_a_sample_has_none_and_ends_with_its_session() -> None:
+    ring = ZenohRing(Subscriber())  # type: ignore[arg-type]
+    assert ring.recv()
+    assert ring.recv()
+    assert ring.try_recv() is None
+    with pytest.raises(EOFError):
+        ring.recv()
+
+
+def test_what_zenoh_refuses_to_say_is_an_error_of_the_bus() -> None:
+    def refuse(*_: object, **__: object) -> None:
+        raise zenoh.ZError("closed")
+
+    publisher: Any = SimpleNamespace(put=refuse, matching_status=SimpleNamespace(matching=True))
+    outlet = ZenohOutlet(publisher)
+    assert outlet.matched is True
+    with pytest.raises(BusError, match="closed"):
+        outlet.put(b"{}", "text/plain", None)
