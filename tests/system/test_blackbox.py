@@ -227,7 +227,7 @@ def test_whatever_is_said_it_is_told_and_nobody_dies(bench: Bench) -> None:
     node = bench.rig.node("odd")
     odd = node.publisher("odd", String)
     until(lambda: odd.matched, "the black box")
-    session = node.session  # another would learn of the black box later
+    session = node.session.zenoh  # another would learn of the black box later
     for say in HOSTILE.values():
         say(session, bench.rig.robot)
     bench.rig.result("stop", *bench.rig.bus_options())
