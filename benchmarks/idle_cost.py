@@ -37,9 +37,11 @@ class Running(Protocol):
 
 
 def child_of(process: Running) -> Running:
-    """Return the process that this one started."""
-    children = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
-    return SimpleNamespace(pid=int(children[0]))
+    """Return the actuator that this watchdog started."""
+    for child in Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split():
+        if b"--link" in Path(f"/proc/{child}/cmdline").read_bytes().split(b"\0"):
+            return SimpleNamespace(pid=int(child))
+    raise IndexError("this watchdog has no actuator now")
 
 
 def private_mb(process: Running) -> float:

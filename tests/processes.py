@@ -72,6 +72,15 @@ def descendants(pid: int) -> list[int]:
     return children + [further for child in children for further in descendants(child)]
 
 
+def part(watchdog: int, flag: bytes) -> int | None:
+    """Return the process that a watchdog started with a flag, if there is one now."""
+    with suppress(OSError):
+        for child in Path(f"/proc/{watchdog}/task/{watchdog}/children").read_text().split():
+            if flag in Path(f"/proc/{child}/cmdline").read_bytes().split(b"\0"):
+                return int(child)
+    return None
+
+
 def users_of(folder: str) -> list[str]:
     """Return the command of each process that has a folder for its temporary files."""
     found = []
@@ -138,12 +147,17 @@ class Process:
     @property
     def child(self) -> int | None:
         """The actuator that this process started and watches over, if there is one now."""
-        pid = self.process.pid
-        with suppress(OSError):
-            for child in Path(f"/proc/{pid}/task/{pid}/children").read_text().split():
-                if b"--record" not in Path(f"/proc/{child}/cmdline").read_bytes().split(b"\0"):
-                    return int(child)
-        return None
+        return part(self.process.pid, b"--link")
+
+    @property
+    def door(self) -> int | None:
+        """The door that this process started, if there is one now."""
+        return part(self.process.pid, b"--door")
+
+    @property
+    def recorder(self) -> int | None:
+        """The black box that this process started, if there is one now."""
+        return part(self.process.pid, b"--record")
 
     def ends(self) -> int:
         """Wait for the end; return the exit code."""

@@ -36,7 +36,11 @@ class Spoiler:
         with suppress(OSError):
             while True:
                 ours, _ = self._listener.accept()
-                theirs = socket.create_connection(("127.0.0.1", self._target))
+                try:
+                    theirs = socket.create_connection(("127.0.0.1", self._target))
+                except OSError:  # whom this poisoned is gone
+                    ours.close()
+                    continue
                 for source, sink, spoils in ((ours, theirs, True), (theirs, ours, False)):
                     threading.Thread(target=self._relay, args=(source, sink, spoils), daemon=True).start()
 

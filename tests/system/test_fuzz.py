@@ -78,7 +78,7 @@ class Company:
             "robot/bench/log", encoding=codec.encoding_of(Log), congestion_control=BLOCK
         )
         until(lambda: getattr(self.last_word.matching_status, "matching"), "who hears the last word")  # noqa: B009
-        until(lambda: len(self.children) == 2, "an actuator and its black box")
+        until(lambda: len(self.children) == 3, "an actuator, its door and its black box")
         self.found = self.children
 
     @property

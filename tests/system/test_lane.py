@@ -9,7 +9,6 @@ import time
 from collections.abc import Iterator
 
 import pytest
-from faults.poison import is_deaf, poison
 from rig import NEUTRAL, PATIENCE, ROOT, Rig, free_port, repeating, until
 
 from zteleop.messages import Twist
@@ -43,20 +42,6 @@ def say(rig: Rig, text: bytes) -> dict[str, object]:
             except TimeoutError:
                 continue
     return answer
-
-
-@pytest.mark.usefixtures("driving")
-def test_a_stop_from_a_fresh_process_is_confirmed_by_a_robot_whose_bus_a_stranger_has_poisoned(
-    rig: Rig,
-) -> None:
-    poison(rig.port)
-    assert is_deaf(rig.port)
-    assert rig.ticks != NEUTRAL, "whoever drove before goes on"
-    stopped = rig.result("stop", "bench", "--no-multicast-scouting", "--connect", rig.endpoint)
-    alone = "bench answered by datagram; on the bus it is not heard\n"
-    assert (stopped.returncode, stopped.stderr) == (0, alone)
-    assert stopped.stdout.startswith("bench is stopped (neutral read back from the chip within ")
-    assert rig.ticks == NEUTRAL
 
 
 def test_zenoh_is_still_poisoned_by_what_is_no_key_expression() -> None:

@@ -37,9 +37,7 @@ class Node:
         bus: BusSettings | None = None,
         *,
         session: Session | None = None,
-        feed: Callable[[], object] | None = None,
     ) -> None:
-        self._feed = feed  # what each thread that wakes `spin` does first
         self.name, self.robot = chunk(name, "a node's name"), robot_name(robot) if robot else None
         self.session = session or open_session(bus or BusSettings())
         try:
@@ -215,7 +213,7 @@ class Node:
         return self.session.advertise(name.key, urgent)
 
     def _deliver(self, inbox: Inbox, handler: Callable[[Any], object]) -> None:
-        self._deliveries.append(self.session.deliver(inbox, handler, self._loop, self._feed))
+        self._deliveries.append(self.session.deliver(inbox, handler, self._loop))
 
     def _listen(self) -> None:
         for heard in self._heard.values():

@@ -14,7 +14,6 @@ class Pump:
 
     Its thread takes one sample and waits until the loop has emptied the ring, one message a
     round: a flood, or a slow handler, costs the other topics one run of that handler at most.
-    `begin` is what its thread does first, such as to ask for the priority that its loop's has.
     """
 
     def __init__(
@@ -22,10 +21,8 @@ class Pump:
         inbox: Inbox,
         handler: Callable[[Any], object],
         loop: Loop,
-        begin: Callable[[], object] | None = None,
     ) -> None:
         self._inbox, self._handler, self._loop = inbox, handler, loop
-        self._begin = begin
         self._sample: Sample | None = None
         self._emptied = threading.Lock()  # held while the loop is at work; an Event costs three times as much
         self._emptied.acquire()
@@ -41,8 +38,6 @@ class Pump:
 
     def _run(self) -> None:
         try:
-            if self._begin:
-                self._begin()
             self._wait()
         except BaseException as error:  # an inbox that nobody empties any more must not go unnoticed
             self._loop.fail(error)

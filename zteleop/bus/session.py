@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import Any, NamedTuple, Protocol, Self
 
 from zteleop.bus.loop import Loop
-from zteleop.bus.settings import BusSettings
+from zteleop.bus.settings import DOOR, BusSettings
 
 
 class Sample(NamedTuple):
@@ -76,13 +76,8 @@ class Session(Protocol):
     def watch_tokens(self, selector: str, depth: int, history: bool = False) -> Ring:
         """Return a ring of the tokens that come and go; with `history`, also of those there are."""
 
-    def deliver(
-        self, inbox: Inbox, handler: Callable[[Any], object], loop: Loop, feed: Callable[[], object] | None
-    ) -> Delivery:
-        """Hand what arrives to a handler in a loop, one message a round.
-
-        Where a thread waits for it, that thread calls `feed` first.
-        """
+    def deliver(self, inbox: Inbox, handler: Callable[[Any], object], loop: Loop) -> Delivery:
+        """Hand what arrives to a handler in a loop, one message a round."""
 
     def close(self) -> None:
         """Leave the bus."""
@@ -99,6 +94,10 @@ def open_session(settings: BusSettings, *, settle: bool = False, door: bool = Fa
 
     Raises ConfigError for an endpoint that is none, BusError when there is no router to a client.
     """
+    if settings.connect and settings.connect[0].startswith(DOOR):
+        from zteleop.bus.door.remote import Remote  # and nothing of zenoh
+
+        return Remote(settings.connect[0].removeprefix(DOOR))
     from zteleop.bus.zenoh_session import ZenohSession, open_zenoh  # not what reads settings needs it
 
     return ZenohSession(open_zenoh(settings, settle=settle, door=door))

@@ -12,6 +12,8 @@ DEPTH = 500
 """messages that wait on each path; a flood beyond it loses the oldest"""
 MOST = 64
 """paths that are heard at once"""
+LARGEST = 2**18
+"""bytes of a message that is passed on"""
 FLOOD, PAUSE = 150, 1.0
 """messages at once, after which a path is not heard for some s: each that is passed on costs the robot"""
 
@@ -74,7 +76,8 @@ class Tap:
         while taken < DEPTH and (sample := inbox.try_recv()) is not None:
             taken += 1
             key = sample.key
-            yield _raw(sample, key if "*" in key else key.removeprefix(self._prefix), now)
+            if len(sample.payload) <= LARGEST:
+                yield _raw(sample, key if "*" in key else key.removeprefix(self._prefix), now)
         if taken >= FLOOD:
             self._paused[path] = now + PAUSE
             self._leave(path)

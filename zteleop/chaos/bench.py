@@ -14,7 +14,7 @@ from zteleop.bus.node import Node
 from zteleop.bus.settings import BusSettings
 from zteleop.chaos.cable import Cable
 from zteleop.chaos.eye import Eye, open_eye
-from zteleop.chaos.process import ZTELEOP, Process, actuator_of
+from zteleop.chaos.process import ZTELEOP, Process, actuator_of, door_of
 from zteleop.chaos.terminal import Terminal
 from zteleop.config import Config
 from zteleop.drivers.faults import Faults
@@ -47,7 +47,7 @@ class Bench:
         self.subject, self.settings = subject, subject.settings
         self.robot = f"chaos-{secrets.token_hex(2)}"
         self.folder = Path(tempfile.mkdtemp(prefix="zt-"))
-        self.door = self.folder / "door"
+        self.address = self.folder / "door"
         own = f"{self.folder}/zteleop/{self.robot}.pca9685" if self.settings.driver == "simulated" else ""
         self.chip = subject.chip or own
         self.order = self.folder / "order"
@@ -89,7 +89,7 @@ class Bench:
     def _start(self) -> None:
         self.eye: Eye = open_eye(self.settings, self.robot, self.chip)
         self._stack.callback(self.eye.close)
-        where = ("--robot", self.robot, "--no-multicast-scouting", "--listen", endpoint(self.door))
+        where = ("--robot", self.robot, "--no-multicast-scouting", "--listen", endpoint(self.address))
         command = [*ZTELEOP, "actuator", "--with-parent", *where, *self.subject.options]
         self.watchdog = self.run("actuator", command, leashed=True)
         self.await_robot()
@@ -100,7 +100,7 @@ class Bench:
     def await_robot(self) -> None:
         """Wait until it can be joined; raises BusError with its last words when it ends."""
         give_up = time.monotonic() + START
-        while not self.door.exists():
+        while not self.address.exists():
             if self.watchdog.ended or time.monotonic() > give_up:
                 raise BusError(f"the robot did not start: {self.watchdog.words}")
             time.sleep(LOOK)
@@ -124,7 +124,7 @@ class Bench:
 
     def join(self, place: Path | None = None) -> Node:
         """Join the robot's bus from here, by its own door or by a cable's."""
-        bus = BusSettings(mode="client", connect=[endpoint(place or self.door)], multicast=False)
+        bus = BusSettings(mode="client", connect=[endpoint(place or self.address)], multicast=False)
         node = Node("chaos", self.robot, bus)
         node.log.show = lambda line: None
         self._stack.callback(node.close)
@@ -132,7 +132,7 @@ class Bench:
 
     def lay_cable(self, place: Path) -> None:
         """Lead to the robot's door from another place, by a link that can be cut."""
-        self.link = self._stack.enter_context(Cable(self.door, place))
+        self.link = self._stack.enter_context(Cable(self.address, place))
 
     @property
     def actuator(self) -> int:
@@ -142,9 +142,18 @@ class Bench:
             raise BusError(f"no actuator runs: {self.watchdog.words}")
         return found
 
+    @property
+    def door(self) -> int:
+        """The process by which the robot is on the bus; raises BusError while there is none."""
+        found = door_of(self.watchdog.pid)
+        if found is None:
+            raise BusError(f"no door is open: {self.watchdog.words}")
+        return found
+
     def path(self) -> list[int]:
         """Return the processes that bring the wheels to rest, and this one, which sees it."""
-        theirs = (self.watchdog.pid, actuator_of(self.watchdog.pid), self.operator and self.operator.pid)
+        watchdog = self.watchdog.pid
+        theirs = (watchdog, door_of(watchdog), actuator_of(watchdog), self.operator and self.operator.pid)
         return [os.getpid(), *(pid for pid in theirs if pid)]
 
     @contextmanager

@@ -79,5 +79,5 @@ OPERATORS = {"here": here, "far": far, "program": program, "keyboard": keyboard}
 
 
 def _where(bench: Bench) -> list[str]:
-    bus = ["--mode", "client", "--connect", endpoint(bench.door), "--no-multicast-scouting"]
+    bus = ["--mode", "client", "--connect", endpoint(bench.address), "--no-multicast-scouting"]
     return ["--robot", bench.robot, *bus]

@@ -70,10 +70,16 @@ class Process:
 
 def actuator_of(watchdog: int) -> int | None:
     """Return the process that a watchdog has started to obey commands, if there is one now."""
-    for child in _children(watchdog):
-        if b"--link" in _command(child):
-            return child
-    return None
+    return _part(watchdog, b"--link")
+
+
+def door_of(watchdog: int) -> int | None:
+    """Return the process by which a robot is on the bus, if there is one now."""
+    return _part(watchdog, b"--door")
+
+
+def _part(watchdog: int, flag: bytes) -> int | None:
+    return next((child for child in _children(watchdog) if flag in _command(child)), None)
 
 
 def _children(pid: int) -> list[int]:

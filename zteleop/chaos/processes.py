@@ -21,6 +21,10 @@ def watchdog(number: int) -> Act:
     return lambda bench: bench.watchdog.signal(number)
 
 
+def door(number: int) -> Act:
+    return lambda bench: os.kill(bench.door, number)
+
+
 def operator(number: int) -> Act:
     def strike(bench: Bench) -> None:
         if bench.operator:
@@ -89,12 +93,14 @@ FAULTS = (
     Fault("actuator told to end", actuator(signal.SIGTERM)),
     Fault("actuator hangs at its end", together(order("hang", actuator), actuator(signal.SIGTERM))),
     Fault("actuator: an error in its loop", order("raise MainThread", actuator)),
-    Fault("actuator: an error in its inboxes", order("raise inbox", actuator), 0.4),
     Fault("watchdog killed", watchdog(signal.SIGKILL)),
     Fault("watchdog crashes", watchdog(signal.SIGSEGV)),
     Fault("watchdog frozen", watchdog(signal.SIGSTOP), 0.5),
     Fault("watchdog told to end", watchdog(signal.SIGTERM)),
     Fault("watchdog: an error in its loop", order("raise MainThread", watchdog)),
+    Fault("door killed", door(signal.SIGKILL), 0.35, then="drives"),
+    Fault("door frozen", door(signal.SIGSTOP), 0.35, then="drives"),
+    Fault("door: an error in its loop", order("raise MainThread", door), 0.35, then="drives"),
     Fault("both stood still for 3 s", stand_still),
     Fault("operator killed", operator(signal.SIGKILL), operator="program"),
     Fault("operator frozen", operator(signal.SIGSTOP), 0.35, operator="program"),

@@ -86,12 +86,6 @@ def lent(priority: int, system: Linux | None = None) -> Iterator[None]:
         _granted(lambda: kernel.run_as(*before))
 
 
-def feed() -> None:
-    """Let this thread run before all ordinary ones when the main thread, which waits for it, runs first."""
-    if _main_runs_first():
-        _granted(lambda: Linux().run_as(os.SCHED_RR | os.SCHED_RESET_ON_FORK, FEEDERS))
-
-
 def follow() -> None:
     """Let this thread keep up with a main thread that runs first; the interpreter is theirs in turn."""
     if _main_runs_first():

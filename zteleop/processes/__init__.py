@@ -19,5 +19,6 @@ PROGRAMS = {
         "zteleop actuator", 20, -900, "the actuator brings neutral and ends; systemd starts both again"
     ),
     "actuator": Program("the watchdog", 10, -800, "the watchdog brings neutral, and starts another"),
+    "door": Program("the watchdog", 6, 300, "nobody drives until the watchdog has opened another"),
     "blackbox": Program("the watchdog", 0, 500, "the robot drives on, and the watchdog starts another"),
 }

@@ -27,9 +27,7 @@ def run(number: int) -> int:
     settings, standing = orders(sys.stdin.buffer.read())
     robot = settings.robot or ""
     end = _adopt(number)
-    with realtime.lent(PROGRAM.priority):
-        joined = Node("actuator", robot, settings.bus, feed=realtime.feed)
-    with joined as node:
+    with Node("actuator", robot, settings.bus) as node:
         # What is refused here, the watchdog was refused as well, and has said so.
         realtime.ask_for(PROGRAM.priority, PROGRAM.oom_score)
         folder = config.state_folder(robot)

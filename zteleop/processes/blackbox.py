@@ -21,8 +21,6 @@ from zteleop.recording.ring import Ring
 
 PROGRAM = PROGRAMS["blackbox"]
 NICE = 10
-LARGEST = 2**18
-"""bytes of a message that is kept"""
 
 
 def run() -> int:
@@ -32,11 +30,10 @@ def run() -> int:
     settings = msgspec.json.decode(_line(ear), type=Config)
     robot = settings.robot or ""
     known = _paths(settings)
-    bus = msgspec.structs.replace(settings.bus, largest=LARGEST)
     # Whoever sees that it is there counts on being heard, and may end it at once. So it says so last, and a
     # signal that comes before waits.
     signal.pthread_sigmask(signal.SIG_BLOCK, signals.ENDING)
-    session = open_session(bus)
+    session = open_session(settings.bus)
     tap = Tap(session, robot, known)
     with Node("blackbox", robot, session=session) as node:
         for number in signals.ENDING:

@@ -2,23 +2,25 @@
 
 import sys
 import tempfile
+import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, closing, contextmanager
 
 import msgspec
 
 from zteleop import config
-from zteleop.bus import presence
+from zteleop.bus import clock, presence
 from zteleop.bus.lane.ear import Ear
 from zteleop.bus.node import Node
-from zteleop.bus.session import open_session
-from zteleop.bus.settings import ROBOT_ENDPOINT, BusSettings
+from zteleop.bus.session import Session, open_session
+from zteleop.bus.settings import DOOR, ROBOT_ENDPOINT, BusSettings
 from zteleop.config import Config
 from zteleop.drivers import PulseDriver, output_enable
 from zteleop.drivers.output_enable import OutputEnable
 from zteleop.errors import DeviceError
-from zteleop.machine import realtime
+from zteleop.machine import realtime, stderr
 from zteleop.machine.child import Child
+from zteleop.machine.door import Door
 from zteleop.machine.sidecar import Recorder
 from zteleop.machine.stop_file import StopFile
 from zteleop.messages import WatchdogStatus
@@ -30,6 +32,8 @@ LARGEST = 2**20
 """bytes of a message that passes a robot's door: whoever sends more would hold up the commands of others."""
 LONGEST_PLACE = 70
 """characters of a folder for the private socket, whose whole path may have a hundred"""
+GLANCE, LOOK_EVERY = 0.005, 0.05
+"""s between looks at the door: until it is open, and then"""
 SPEAKS_WITHIN = 1.0
 """s; a watchdog says five times a second what it sees"""
 CHILD = [sys.executable, "-m", "zteleop", "actuator"]
@@ -43,15 +47,22 @@ def run(settings: Config, hand: PulseDriver, joined: Callable[[Node], object]) -
     with ExitStack() as stack:
         place = None if len(tempfile.gettempdir()) < LONGEST_PLACE else "/tmp"
         folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="zteleop-", dir=place))
-        bus, childs_bus = _door(settings.bus, f"unixsock-stream/{folder}/bus")
-        with realtime.lent(PROGRAM.priority):
-            node = stack.enter_context(_join(robot, bus))
+        bus = _reachable(settings.bus)
+        door = Door([*CHILD, "--door"], lambda first: _orders(bus, first), f"{folder}/door", stderr.say)
+        stack.callback(door.close)
+        behind = BusSettings(mode="client", connect=[f"{DOOR}{door.place}"], multicast=False)
+        session = stack.enter_context(open_session(behind))
+        if code := _open(door):
+            return code
+        node = stack.enter_context(_join(robot, session))
+        door.say = node.log.error
+        node.every(LOOK_EVERY)(lambda: door.tend(clock.now()))
         joined(node)
         pin = output_enable(settings.driver, chip)
         if pin:
             stack.callback(pin.close)
         _privileges(node)
-        orders = msgspec.json.encode(msgspec.structs.replace(settings, bus=childs_bus))
+        orders = msgspec.json.encode(msgspec.structs.replace(settings, bus=behind))
         child = Child(CHILD, orders, hand.shared())
         recorder = Recorder(RECORDER, orders, node.log.warn) if settings.blackbox else None
         stop_file = StopFile(config.state_folder(robot) / "stop", node.log.error)
@@ -60,16 +71,26 @@ def run(settings: Config, hand: PulseDriver, joined: Callable[[Node], object]) -
         return dog.run()
 
 
+def _open(door: Door) -> int:
+    """Start the door, and wait until it is open; return its exit code when it never will be."""
+    door.start(clock.now())
+    while not door.is_open:
+        time.sleep(GLANCE)
+        door.tend(clock.now())
+        if door.refused:
+            return door.refused
+    return 0
+
+
 @contextmanager
-def _join(robot: str, bus: BusSettings) -> Iterator[Node]:
+def _join(robot: str, session: Session) -> Iterator[Node]:
     """Join the bus as the only watchdog of that robot."""
-    with open_session(bus, settle=True, door=True) as session:
-        before = presence.holders(session, robot, "watchdog")
-        with Node("watchdog", robot, session=session, feed=realtime.feed) as node:
-            holders = {*before, *_who_goes_first(presence.holders(session, robot, "watchdog"))}
-            if holders:
-                _pass_over(node, ", ".join(sorted(holders)))
-            yield node
+    before = presence.holders(session, robot, "watchdog")
+    with Node("watchdog", robot, session=session) as node:
+        holders = {*before, *_who_goes_first(presence.holders(session, robot, "watchdog"))}
+        if holders:
+            _pass_over(node, ", ".join(sorted(holders)))
+        yield node
 
 
 def _who_goes_first(holders: list[str]) -> list[str]:
@@ -103,15 +124,18 @@ def _switch(node: Node, pin: OutputEnable | None) -> Callable[[bool], bool]:
     return switch
 
 
-def _door(bus: BusSettings, private: str) -> tuple[BusSettings, BusSettings]:
-    """Return how the watchdog joins the bus, and how its actuator does: through the watchdog's door."""
+def _reachable(bus: BusSettings) -> BusSettings:
+    """Return how the door joins the bus: where strangers find it, unless it is a client of a router."""
     if bus.mode == "client":
-        return bus, bus
+        return bus
     listen = bus.listen
     if bus.mode == "peer" and bus.multicast and not listen:
         listen = [ROBOT_ENDPOINT, "tcp/[::]:0"]
-    childs = BusSettings(mode="client", connect=[private], multicast=False, largest=LARGEST)
-    return msgspec.structs.replace(bus, listen=[*listen, private], largest=LARGEST), childs
+    return msgspec.structs.replace(bus, listen=listen, largest=LARGEST)
+
+
+def _orders(bus: BusSettings, first: bool) -> bytes:
+    return msgspec.json.encode({"bus": bus, "settle": first})
 
 
 def _privileges(node: Node) -> None:

@@ -99,8 +99,8 @@ class Session:
     def advertise(self, key: str, urgent: bool) -> Outlet:
         return self.outlets.setdefault(key, (Outlet(), urgent))[0]
 
-    def deliver(self, inbox: Any, handler: Any, loop: Any, feed: Any) -> Pump:
-        return Pump(inbox, handler, loop, feed)
+    def deliver(self, inbox: Any, handler: Any, loop: Any) -> Pump:
+        return Pump(inbox, handler, loop)
 
     def close(self) -> None:
         self.closed = True

@@ -4,7 +4,6 @@ import os
 import resource
 import subprocess
 import sys
-import threading
 from collections.abc import Callable
 from contextlib import nullcontext, suppress
 from pathlib import Path
@@ -14,13 +13,13 @@ import pytest
 
 from zteleop.errors import DeviceError
 from zteleop.machine import realtime
-from zteleop.machine.realtime import FEEDERS, LOCKED, PRIORITY, SURVIVAL, Linux, ask_for, feed, lent
+from zteleop.machine.realtime import FEEDERS, LOCKED, PRIORITY, SURVIVAL, Linux, ask_for, lent
 
 linux_only = pytest.mark.skipif(sys.platform != "linux", reason="asks Linux")
 
 AS_THIS_USER = """
 import ctypes, json, os, resource, threading
-from zteleop.machine.realtime import feed, follow, lent, ask_for
+from zteleop.machine.realtime import follow, lent, ask_for
 {prepare}
 def rank():
     return os.sched_getscheduler(0) & ~os.SCHED_RESET_ON_FORK, os.sched_getparam(0).sched_priority
@@ -47,7 +46,7 @@ print(json.dumps({{
     "refused": refused,
     "first": os.sched_getscheduler(0) & ~os.SCHED_RESET_ON_FORK == os.SCHED_FIFO,
     "lent": [lent_to, after],
-    "threads": [started(), started(follow), started(feed)],
+    "threads": [started(), started(follow)],
     "process": os.waitstatus_to_exitcode(os.waitpid(process, 0)[1]),
     "locked": int(status["VmLck"].split()[0]) > 0,
     "limit": resource.getrlimit(resource.RLIMIT_MEMLOCK),
@@ -163,9 +162,7 @@ def test_elsewhere_than_on_linux_threads_are_as_they_were(monkeypatch: pytest.Mo
     monkeypatch.setattr(realtime.sys, "platform", "darwin")
     monkeypatch.setattr(Linux, "run_as", pytest.fail)
     with lent(20):
-        thread = threading.Thread(target=feed)
-        thread.start()
-    thread.join()
+        pass
 
 
 class Limits:
@@ -230,7 +227,7 @@ def test_what_is_said_is_what_the_kernel_did_and_threads_run_first_only_when_the
     ordinary, first = [os.SCHED_OTHER, 0], told["first"]
     behind, feeding = ([os.SCHED_FIFO, 1], [os.SCHED_RR, FEEDERS]) if first else (ordinary, ordinary)
     assert told["lent"] == [feeding, ordinary]
-    assert told["threads"] == [ordinary, behind, feeding]
+    assert told["threads"] == [ordinary, behind]
     assert told["process"] == os.SCHED_OTHER
 
 
@@ -239,6 +236,6 @@ def test_an_ordinary_user_is_refused_and_can_allocate_more_than_may_be_locked() 
     told = ask(ORDINARY, allocate=300 * MEBIBYTE)
     assert told["refused"] == [PRIORITY, LOCKED, SURVIVAL]
     assert not told["first"]
-    assert [*told["lent"], *told["threads"]] == 5 * [[os.SCHED_OTHER, 0]]
+    assert [*told["lent"], *told["threads"]] == 4 * [[os.SCHED_OTHER, 0]]
     assert not told["locked"]
     assert told["limit"][0] == told["limit"][1] > 0

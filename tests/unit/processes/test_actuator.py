@@ -23,8 +23,8 @@ def made(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> dict[str, Any]:
     made: dict[str, Any] = {}
 
     @contextmanager
-    def join(name: str, robot: str, bus: BusSettings, *, feed: Any) -> Iterator[Node]:
-        made.update(name=name, bus=bus, node=Node(robot), feed=feed)
+    def join(name: str, robot: str, bus: BusSettings) -> Iterator[Node]:
+        made.update(name=name, bus=bus, node=Node(robot))
         yield made["node"]
         made["left"] = True
 
@@ -58,7 +58,7 @@ def give(monkeypatch: pytest.MonkeyPatch, settings: bytes) -> None:
 
 SETTINGS = Config(
     robot="archangel",
-    bus=BusSettings(mode="client", connect=["unixsock-stream//tmp/x/bus"], multicast=False),
+    bus=BusSettings(mode="client", connect=["door//tmp/x/door"], multicast=False),
     journal="all",
     drivers={"simulated": {"path": "/tmp/chip"}},
 )
@@ -95,36 +95,6 @@ def test_it_ranks_below_its_watchdog(made: dict[str, Any], monkeypatch: pytest.M
     actuator.run(7)
     assert made["asked"] < PROGRAMS["watchdog"].priority
     assert actuator.PROGRAM.oom_score > PROGRAMS["watchdog"].oom_score
-
-
-def test_what_feeds_it_starts_and_runs_between_it_and_ordinary_threads(
-    made: dict[str, Any], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    order: list[str] = []
-
-    @contextmanager
-    def lent(priority: int) -> Iterator[None]:
-        order.append(f"lends for {priority}")
-        yield
-        order.append("takes back")
-
-    node = actuator.Node
-
-    def open_bus(*arguments: Any, **options: Any) -> Any:
-        order.append("zenoh's threads start")
-        return node(*arguments, **options)
-
-    monkeypatch.setattr(actuator.realtime, "lent", lent)
-    monkeypatch.setattr(
-        actuator.realtime, "ask_for", lambda priority, score: order.append(f"takes {priority}")
-    )
-    monkeypatch.setattr(actuator, "Node", open_bus)
-    give(monkeypatch, msgspec.json.encode(SETTINGS))
-    actuator.run(7)
-    own = actuator.PROGRAM.priority
-    assert order == [f"lends for {own}", "zenoh's threads start", "takes back", f"takes {own}"]
-    assert made["feed"] == actuator.realtime.feed
-    assert own > actuator.realtime.FEEDERS
 
 
 def test_a_chip_that_is_missing_leaves_the_bus(made: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:

@@ -16,7 +16,7 @@ from zteleop.machine import signals
 from zteleop.processes import blackbox
 from zteleop.recording.ring import TOPICS_AT_MOST
 
-SETTINGS = Config(robot="archangel", bus=BusSettings(mode="client", connect=["unixsock-stream//tmp/x/bus"]))
+SETTINGS = Config(robot="archangel", bus=BusSettings(mode="client", connect=["door//tmp/x/door"]))
 
 
 @pytest.fixture
@@ -67,13 +67,12 @@ def run(made: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> Iterator[dict[
     os.close(mouth)
 
 
-def test_it_joins_by_the_watchdogs_door_and_keeps_a_files_place(run: dict[str, Any], tmp_path: Path) -> None:
+def test_it_joins_by_the_robots_door_and_keeps_a_files_place(run: dict[str, Any], tmp_path: Path) -> None:
     assert (run["name"], run["node"].robot, run["bus"].connect) == (
         "blackbox",
         "archangel",
         SETTINGS.bus.connect,
     )
-    assert run["bus"].largest == blackbox.LARGEST
     assert run["tap"][:2] == ("session", "archangel")
     assert run["writer"] == ("archangel", tmp_path / "zteleop/robots/archangel/blackbox")
     assert run["ran"]

@@ -3,6 +3,7 @@ from contextlib import nullcontext
 from types import SimpleNamespace
 from typing import Any
 
+import msgspec
 import pytest
 from unit.bus.fakes import Session
 
@@ -11,6 +12,7 @@ from zteleop.bus.node import Node
 from zteleop.bus.settings import ROBOT_ENDPOINT, BusSettings
 from zteleop.errors import DeviceError
 from zteleop.processes import watchdog
+from zteleop.processes.door import Orders
 
 
 @pytest.fixture
@@ -20,7 +22,6 @@ def join(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Any]:
     def join(before: list[str], meanwhile: list[str], own: str = "pi-7", speaks: bool = True) -> Any:
         session = Session(f"robot/archangel/live/node/watchdog/{holder}" for holder in before)
         monkeypatch.setattr(presence, "process", lambda: own)
-        monkeypatch.setattr(watchdog, "open_session", lambda *_, **options: nullcontext(session))
 
         def node(*arguments: Any, **options: Any) -> Node:
             late = [f"robot/archangel/live/node/watchdog/{holder}" for holder in meanwhile]
@@ -32,7 +33,7 @@ def join(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Any]:
             return node
 
         monkeypatch.setattr(watchdog, "Node", node)
-        return watchdog._join("archangel", BusSettings())
+        return watchdog._join("archangel", session)
 
     return join
 
@@ -66,31 +67,60 @@ def test_who_holds_the_place_and_says_nothing_is_passed_over(
         ]
 
 
-PRIVATE = "unixsock-stream//tmp/x/bus"
-
-
-def test_the_actuator_joins_by_the_watchdogs_door_alone() -> None:
-    bus, childs = watchdog._door(BusSettings(), PRIVATE)
-    assert bus.listen == [ROBOT_ENDPOINT, "tcp/[::]:0", PRIVATE]
-    assert (childs.mode, childs.connect, childs.listen, childs.multicast) == ("client", [PRIVATE], [], False)
-    assert bus.largest == childs.largest == watchdog.LARGEST
+def test_the_door_is_where_strangers_look_and_takes_no_huge_messages() -> None:
+    bus = watchdog._reachable(BusSettings())
+    assert bus.listen == [ROBOT_ENDPOINT, "tcp/[::]:0"]
+    assert bus.largest == watchdog.LARGEST
 
 
 @pytest.mark.parametrize(
-    ("typed", "listen"),
+    "typed",
     [
-        (BusSettings(listen=["tcp/[::]:1"]), ["tcp/[::]:1", PRIVATE]),
-        (BusSettings(multicast=False), [PRIVATE]),
-        (BusSettings(mode="router", listen=["tcp/[::]:1"]), ["tcp/[::]:1", PRIVATE]),
+        BusSettings(listen=["tcp/[::]:1"]),
+        BusSettings(multicast=False),
+        BusSettings(mode="router", listen=["tcp/[::]:1"]),
     ],
 )
-def test_what_was_typed_of_its_doors_stays(typed: BusSettings, listen: list[str]) -> None:
-    assert watchdog._door(typed, PRIVATE)[0].listen == listen
+def test_where_it_listens_is_as_typed(typed: BusSettings) -> None:
+    assert watchdog._reachable(typed).listen == typed.listen
 
 
-def test_a_client_has_no_door_and_its_actuator_is_one_too() -> None:
+def test_the_door_of_a_client_joins_its_router() -> None:
     client = BusSettings(mode="client", connect=["tcp/hub:7447"])
-    assert watchdog._door(client, PRIVATE) == (client, client)
+    assert watchdog._reachable(client) == client
+
+
+class Opening:
+    """A door that opens, or refuses, after some looks."""
+
+    def __init__(self, looks: int, refused: int = 0) -> None:
+        self.is_open, self.refused, self.started = False, 0, False
+        self._looks, self._refusal = looks, refused
+
+    def start(self, now: float) -> None:
+        self.started = True
+
+    def tend(self, now: float) -> None:
+        assert self.started
+        self._looks -= 1
+        if not self._looks:
+            self.refused, self.is_open = self._refusal, not self._refusal
+
+
+@pytest.mark.parametrize("refused", [0, 2])
+def test_a_robot_begins_when_its_door_is_open_and_ends_as_the_door_that_refused(
+    monkeypatch: pytest.MonkeyPatch, refused: int
+) -> None:
+    monkeypatch.setattr(watchdog.time, "sleep", lambda seconds: None)
+    assert watchdog._open(Opening(3, refused)) == refused
+
+
+def test_only_the_first_door_waits_until_all_are_found() -> None:
+    told = [
+        msgspec.json.decode(watchdog._orders(BusSettings(), first), type=Orders) for first in (True, False)
+    ]
+    assert [orders.settle for orders in told] == [True, False]
+    assert told[0].bus == BusSettings()
 
 
 class Pin:

@@ -1,0 +1,96 @@
+"""A robot whose door breaks while somebody drives: it stands, opens another, and is driven on."""
+
+import os
+import re
+import signal
+import socket
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from faults.poison import is_deaf, poison
+from rig import NEUTRAL, Rig, repeating, until
+
+from zteleop.messages import Twist
+
+NEVER_OPENS = "import sys\nif '--door' in sys.orig_argv: raise SystemExit('no door')"
+
+
+class Robot:
+    """A robot that a program drives; its stream goes on whatever happens."""
+
+    def __init__(self, rig: Rig) -> None:
+        self.rig, self.process = rig, rig.actuator()
+        until(lambda: self.process.recorder, "a black box")
+        self.others = self.process.child, self.process.recorder
+
+    @property
+    def drives(self) -> bool:
+        return self.rig.ticks[1] > NEUTRAL[1]
+
+    @property
+    def door(self) -> int:
+        until(lambda: self.process.door, "a door")
+        return self.process.door or 0
+
+
+@pytest.fixture
+def robot(rig: Rig, tmp_path: Path) -> Iterator[Robot]:
+    rig.environment["PYTHONPATH"] = str(tmp_path)
+    robot = Robot(rig)
+    node = rig.node("driver")
+    rig.hear(node)
+    motors = node.publisher("cmd_vel", Twist)
+    with repeating(lambda: motors.publish(Twist.planar(0.5)), 0.02):
+        until(lambda: robot.drives, "the throttle above neutral")
+        yield robot
+
+
+def killed(robot: Robot) -> None:
+    os.kill(robot.door, signal.SIGKILL)
+
+
+def frozen(robot: Robot) -> None:
+    os.kill(robot.door, signal.SIGSTOP)
+
+
+def poisoned(robot: Robot) -> None:
+    poison(robot.rig.port)
+
+
+@pytest.mark.parametrize("breaks", [killed, frozen, poisoned])
+def test_a_robot_whose_door_breaks_rests_until_another_opens_and_is_driven_on(
+    robot: Robot, breaks: Callable[[Robot], None]
+) -> None:
+    breaks(robot)
+    robot.process.says("the door to the bus is shut")
+    robot.process.says("the door is open again")
+    until(lambda: robot.drives, "whoever drove drives on")
+    assert not is_deaf(robot.rig.port), "a newcomer is heard"
+    assert (robot.process.child, robot.process.recorder) == robot.others
+    stopped = robot.rig.result("stop", *robot.rig.bus_options())
+    assert (stopped.returncode, robot.rig.ticks) == (0, NEUTRAL), stopped.stderr
+
+
+def test_a_robot_whose_door_never_opens_again_rests_and_is_stopped_without_one(
+    robot: Robot, tmp_path: Path
+) -> None:
+    (tmp_path / "sitecustomize.py").write_text(NEVER_OPENS)
+    killed(robot)
+    until(lambda: robot.rig.ticks == NEUTRAL, "nobody is heard, so nobody drives")
+    robot.process.says("another opens in 0.2 s, and nobody drives meanwhile")
+    stopped = robot.rig.result("stop", "bench", "--no-multicast-scouting", "--connect", robot.rig.endpoint)
+    alone = "bench answered by datagram; on the bus it is not heard\n"
+    assert (stopped.returncode, stopped.stderr) == (0, alone)
+    assert stopped.stdout.startswith("bench is stopped (neutral read back from the chip within ")
+    (tmp_path / "sitecustomize.py").unlink()
+    robot.process.says("the door is open again")
+    release = robot.rig.result("stop", "--release", "--all", *robot.rig.bus_options())
+    assert release.returncode == 0, release.stderr
+
+
+def test_a_door_that_cannot_open_ends_the_robot_in_its_own_words(rig: Rig) -> None:
+    with socket.create_server(("127.0.0.1", rig.port)):
+        run = rig.result("actuator", "--robot", "bench", "--no-multicast-scouting", "--listen", rig.endpoint)
+    assert run.returncode == 1
+    assert re.fullmatch(r"zteleop actuator: cannot open the bus: .+\n", run.stderr), run.stderr

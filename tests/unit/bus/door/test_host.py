@@ -1,0 +1,247 @@
+"""A door and those behind it, over real sockets; zenoh is a table of callbacks."""
+
+import socket
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from zteleop.bus import clock
+from zteleop.bus.door import host as module
+from zteleop.bus.door.host import Host
+from zteleop.bus.door.remote import Remote
+from zteleop.bus.loop import Loop
+from zteleop.bus.session import Sample
+from zteleop.errors import BusError
+
+
+class Declared:
+    def __init__(self, undo: Callable[[], object]) -> None:
+        self.undeclare = undo
+
+
+class Zenoh:
+    """A bus that hands over in the thread that speaks."""
+
+    def __init__(self) -> None:
+        self.hearers: dict[str, list[Callable[[Sample], None]]] = {}
+        self.alive: list[str] = []
+        self.watchers: list[Callable[[Sample], None]] = []
+        self.urgent: list[str] = []
+
+    def hear(self, key: str, passes: Callable[[Sample], None]) -> Declared:
+        if not key.startswith("robot/"):
+            raise BusError(f"{key} is no key")
+        self.hearers.setdefault(key, []).append(passes)
+        return Declared(lambda: self.hearers[key].remove(passes))
+
+    def hear_tokens(self, selector: str, passes: Callable[[Sample], None], history: bool) -> Declared:
+        self.watchers.append(passes)
+        for key in self.alive if history else ():
+            passes(Sample(key, b"", ""))
+        return Declared(lambda: self.watchers.remove(passes))
+
+    def advertise(self, key: str, urgent: bool) -> Any:
+        outlet = Declared(lambda: None)
+        outlet.put = lambda payload, encoding, attachment: self.say(  # type: ignore[attr-defined]
+            Sample(key, payload, encoding, attachment)
+        )
+        self.urgent += [key] if urgent else []
+        return outlet
+
+    def stand(self, key: str) -> Declared:
+        self.alive.append(key)
+        self._tell(key, True)
+        return Declared(lambda: self._fall(key))
+
+    def tokens(self, selector: str) -> set[str]:
+        return set(self.alive)
+
+    def say(self, sample: Sample) -> None:
+        for passes in list(self.hearers.get(sample.key, ())):
+            passes(sample)
+
+    def _fall(self, key: str) -> None:
+        self.alive.remove(key)
+        self._tell(key, False)
+
+    def _tell(self, key: str, is_put: bool) -> None:
+        for passes in list(self.watchers):
+            passes(Sample(key, b"", "", None, is_put))
+
+
+class House:
+    """A door at a place, and those who knock there."""
+
+    def __init__(self, place: str) -> None:
+        self.place = place
+        self.listener = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+        self.listener.bind(place)
+        self.listener.listen()
+        self.complaints: list[str] = []
+        self.guests: list[Remote] = []
+        self.open()
+
+    def open(self) -> None:
+        self.loop = Loop(lambda: None)
+        self.zenoh = Zenoh()
+        self.host = Host(self.zenoh, self.listener, self.loop, self.complaints.append)  # type: ignore[arg-type]
+
+    def guest(self) -> Remote:
+        guest = Remote(self.place)
+        self.guests.append(guest)
+        self.settle(guest)
+        return guest
+
+    def settle(self, *guests: Remote) -> None:
+        """Let everything that was said arrive."""
+        for _ in range(5):
+            self.loop.run(clock.now())
+            for guest in guests:
+                guest.read()
+
+    def fall(self) -> None:
+        """End as a process does."""
+        for guest in self.host._guests:
+            guest._wire.close()
+        self.loop.close()
+
+
+@pytest.fixture
+def house(tmp_path: Path) -> Iterator[House]:
+    house = House(str(tmp_path / "door"))
+    yield house
+    for guest in house.guests:
+        guest.close()
+    house.fall()
+    house.listener.close()
+
+
+def taken(ring: Any) -> list[Sample]:
+    return list(iter(ring.try_recv, None))
+
+
+def test_what_one_says_the_others_hear(house: House) -> None:
+    one, other = house.guest(), house.guest()
+    ring = other.subscribe("robot/a/beat", 10)
+    outlet = one.advertise("robot/a/beat", urgent=True)
+    house.settle(one, other)
+    outlet.put(b"1", "text/plain", b"proof")
+    house.settle(one, other)
+    assert taken(ring) == [Sample("robot/a/beat", b"1", "text/plain", b"proof", True)]
+    assert outlet.matched
+    assert house.zenoh.urgent == ["robot/a/beat"]
+
+
+def test_a_stranger_is_heard_by_each_and_the_newest_are_kept(house: House) -> None:
+    guests = [house.guest() for _ in range(3)]
+    rings = [guest.subscribe("robot/a/pwm", depth) for guest, depth in zip(guests, (1, 2, 3), strict=True)]
+    house.settle(*guests)
+    for number in range(4):
+        house.zenoh.say(Sample("robot/a/pwm", bytes([number]), ""))
+    house.settle(*guests)
+    assert [[sample.payload[0] for sample in taken(ring)] for ring in rings] == [[3], [2, 3], [1, 2, 3]]
+
+
+def test_what_is_undeclared_is_heard_no_more(house: House) -> None:
+    guest = house.guest()
+    ring = guest.subscribe("robot/a/pwm", 1)
+    house.settle(guest)
+    ring.undeclare()
+    house.settle(guest)
+    assert house.zenoh.hearers == {"robot/a/pwm": []}
+
+
+def test_who_leaves_takes_its_tokens_with_it_and_others_see_that(house: House) -> None:
+    one, other = house.guest(), house.guest()
+    one.declare_token("robot/a/live/node/actuator/pi-7")
+    house.settle(one, other)
+    come = other.watch_tokens("robot/a/live/**", 10, history=True)
+    house.settle(one, other)
+    one.close()
+    house.settle(other)
+    assert [(sample.key, sample.is_put) for sample in taken(come)] == [
+        ("robot/a/live/node/actuator/pi-7", True),
+        ("robot/a/live/node/actuator/pi-7", False),
+    ]
+
+
+def test_a_next_door_is_told_all_that_was_declared(house: House) -> None:
+    one, other = house.guest(), house.guest()
+    ring = other.subscribe("robot/a/beat", 10)
+    outlet = one.advertise("robot/a/beat", urgent=False)
+    one.declare_token("robot/a/live/node/actuator/pi-7")
+    gone = one.subscribe("robot/a/pwm", 1)
+    gone.undeclare()
+    house.settle(one, other)
+    house.fall()
+    one.read()
+    other.read()
+    assert not one.is_open
+    outlet.put(b"lost", "", None)
+    house.open()
+    house.settle(one, other)
+    outlet.put(b"heard", "", None)
+    house.settle(one, other)
+    assert [sample.payload for sample in taken(ring)] == [b"heard"]
+    assert house.zenoh.alive == ["robot/a/live/node/actuator/pi-7"]
+    assert list(house.zenoh.hearers) == ["robot/a/beat"]
+
+
+def test_what_is_declared_while_no_door_is_open_is_declared_to_the_next(house: House) -> None:
+    house.fall()
+    early = Remote(house.place)
+    house.guests.append(early)
+    ring = early.subscribe("robot/a/beat", 1)
+    house.open()
+    house.settle(early)
+    house.zenoh.say(Sample("robot/a/beat", b"1", ""))
+    house.settle(early)
+    assert len(taken(ring)) == 1
+
+
+def test_a_flood_costs_a_robot_so_much_and_no_more(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
+    guest, now = house.guest(), clock.now()
+    ring = guest.subscribe("robot/a/pwm", 10_000)
+    other = guest.subscribe("robot/a/stop", 1)
+    house.settle(guest)
+    for times in (1, 2):
+        monkeypatch.setattr(module.clock, "now", lambda times=times: now + times)  # type: ignore[misc]
+        for _ in range(2 * module.AT_ONCE):
+            house.zenoh.say(Sample("robot/a/pwm", b"1", ""))
+        house.zenoh.say(Sample("robot/a/stop", b"1", ""))
+        heard = []
+        while not (stops := taken(other)):
+            house.host._flush()
+            guest.read()
+        heard += taken(ring)
+        assert (len(heard), len(stops)) == (module.AT_ONCE, 1)
+
+
+def test_who_reads_nothing_holds_up_nobody_and_hears_the_rest_later(house: House) -> None:
+    frozen, other = house.guest(), house.guest()
+    late, ring = frozen.subscribe("robot/a/odd", 10_000), other.subscribe("robot/a/odd", 10_000)
+    house.loop.run(clock.now() + 0.01)
+    large = 100
+    for _ in range(large):
+        house.zenoh.say(Sample("robot/a/odd", bytes(100_000), ""))
+        other.read()
+    house.settle(other)
+    assert len(taken(ring)) == large
+    for _ in range(large):
+        frozen.read()
+        house.host._flush()
+    kept = len(taken(late))
+    assert module.WAITING / 100_000 <= kept < large
+
+
+def test_a_name_that_zenoh_does_not_take_is_said_and_ends_nobody(house: House) -> None:
+    guest = house.guest()
+    guest.subscribe("no key", 1)
+    ring = guest.subscribe("robot/a/pwm", 1)
+    house.settle(guest)
+    assert house.complaints == ["the door cannot do what it is asked: no key is no key"]
+    house.zenoh.say(Sample("robot/a/pwm", b"1", ""))
+    house.settle(guest)
+    assert len(taken(ring)) == 1

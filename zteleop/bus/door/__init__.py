@@ -1,0 +1,7 @@
+"""The door: strangers meet zenoh in a process that may break; the robot's own speak and hear through it.
+
+frames   what is said between them
+wire     how it gets there: a socket of the machine
+remote   the session of a process behind the door
+host     the door's end of it
+"""

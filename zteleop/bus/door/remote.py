@@ -1,0 +1,287 @@
+"""A session by way of the door: the process that has it holds nothing of zenoh's.
+
+The door may go, and another come: what was declared is declared to it anew. What is said meanwhile is lost,
+as on any bus.
+"""
+
+import select
+import socket
+import time
+from collections import deque
+from collections.abc import Callable
+from itertools import count
+from typing import Any, Self
+
+from zteleop.bus.door.frames import (
+    Advertise,
+    Answer,
+    Arrived,
+    AskTokens,
+    Declaration,
+    Put,
+    Stand,
+    Subscribe,
+    Tokens,
+    Undeclare,
+    WatchTokens,
+)
+from zteleop.bus.door.wire import Wire
+from zteleop.bus.loop import Loop
+from zteleop.bus.session import Inbox, Sample
+from zteleop.errors import BusError
+
+REPLY_WITHIN = 3.0
+"""s; zenoh itself answers within two"""
+GLANCE = 0.0005
+"""s after a look that found nothing, in which nobody looks again: many inboxes share one wire"""
+READS = 16
+"""pieces taken in at once"""
+
+
+class Remote:
+    """Speaks and hears through whichever door listens at a place of this machine."""
+
+    def __init__(self, place: str) -> None:
+        self._place = place
+        self._ids = count(1)
+        self._declared: dict[int, Declaration] = {}
+        self._rings: dict[int, RemoteRing] = {}
+        self._answers: dict[int, list[str]] = {}
+        self._loop: Loop | None = None
+        self._wire: Wire[Answer] | None = None
+        self._looked = float("-inf")
+        self.is_open = self.closed = False
+        self._join()
+
+    def subscribe(self, key: str, depth: int) -> "RemoteRing":
+        return self._hear(Subscribe(next(self._ids), key, depth))
+
+    def watch_tokens(self, selector: str, depth: int, history: bool = False) -> "RemoteRing":
+        return self._hear(WatchTokens(next(self._ids), selector, depth, history))
+
+    def advertise(self, key: str, urgent: bool) -> "RemoteOutlet":
+        identity = next(self._ids)
+        self._declare(Advertise(identity, key, urgent))
+        return RemoteOutlet(self, identity)
+
+    def declare_token(self, key: str) -> None:
+        self._declare(Stand(next(self._ids), key))
+
+    def tokens(self, selector: str) -> set[str]:
+        """Return the tokens there are; raises BusError when no door answers."""
+        asked, give_up = next(self._ids), time.monotonic() + REPLY_WITHIN
+        wire = self._wire if self.wait(REPLY_WITHIN) else None
+        if wire:
+            wire.send(AskTokens(asked, selector), keep=True)
+        while asked not in self._answers:
+            if self.closed or time.monotonic() > give_up:
+                raise BusError("the door of this robot does not answer")
+            self.await_more(give_up)
+        return set(self._answers.pop(asked))
+
+    def deliver(self, inbox: Inbox, handler: Callable[[Any], object], loop: Loop) -> "Turns":
+        ring: Any = inbox.ring
+        turns: Turns = Turns(inbox, handler, loop)
+        ring.turns = turns
+        if self._loop is None:
+            self._loop = loop
+            self._watch()
+        return turns
+
+    def wait(self, seconds: float) -> bool:
+        """Wait for the door to open; True when it is."""
+        give_up = time.monotonic() + seconds
+        self.read()
+        while not self.is_open and time.monotonic() < give_up:
+            self.await_more(give_up)
+        return self.is_open
+
+    def await_more(self, give_up: float) -> None:
+        """Wait a little for something to arrive, and take it in."""
+        patience = max(0.0, min(give_up - time.monotonic(), 0.1))
+        if self._wire:
+            select.select([self._wire], [], [], patience)
+        else:
+            time.sleep(min(patience, 0.01))
+        self.read()
+
+    def glance(self) -> None:
+        """Take in what has arrived, unless somebody has just looked in vain."""
+        now = time.monotonic()
+        if now - self._looked > GLANCE:
+            self.read()
+
+    def read(self) -> None:
+        """Take in what has arrived."""
+        if self.closed or not (self._wire or self._join()):
+            return
+        for _ in range(READS):
+            assert self._wire
+            try:
+                frames = self._wire.read()
+            except EOFError:
+                self._lose()
+                return
+            if not frames:
+                break
+            for frame in frames:
+                self._take(frame)
+        if self._wire:
+            self._wire.flush()
+        self._looked = time.monotonic()
+
+    def put(self, frame: Put) -> None:
+        """Say something, or nothing while there is no door; raises BusError when the session is closed."""
+        wire = self._wire
+        if self.closed:
+            raise BusError("the session is closed")
+        if wire and self.is_open:
+            wire.send(frame)
+
+    def undeclare(self, identity: int) -> None:
+        """Take back what was declared."""
+        self._rings.pop(identity, None)
+        if self._declared.pop(identity, None) and self._wire and self.is_open:
+            self._wire.send(Undeclare(identity), keep=True)
+
+    def close(self) -> None:
+        self.closed = True
+        self._unwatch()
+        if self._wire:
+            self._wire.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *exc: object) -> None:
+        self.close()
+
+    def _take(self, frame: Answer) -> None:
+        if isinstance(frame, Arrived):
+            if ring := self._rings.get(frame.id):
+                ring.take(Sample(frame.key, frame.payload, frame.encoding, frame.attachment, frame.is_put))
+        elif isinstance(frame, Tokens):
+            self._answers[frame.id] = frame.keys
+        else:
+            self._tell_all()
+
+    def _hear(self, declaration: Subscribe | WatchTokens) -> "RemoteRing":
+        ring = self._rings[declaration.id] = RemoteRing(self, declaration.id, declaration.depth)
+        self._declare(declaration)
+        return ring
+
+    def _declare(self, declaration: Declaration) -> None:
+        self._declared[declaration.id] = declaration
+        if self._wire and self.is_open:
+            self._wire.send(declaration, keep=True)
+
+    def _tell_all(self) -> None:
+        """Tell a door that has just opened what this process wants of it."""
+        assert self._wire
+        for declaration in self._declared.values():
+            self._wire.send(declaration, keep=True)
+        self.is_open = True
+
+    def _join(self) -> bool:
+        """Knock: the place outlives each door, and the next one answers."""
+        end = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+        end.setblocking(False)
+        try:
+            end.connect(self._place)
+        except OSError:  # nobody is left who could open one
+            end.close()
+            return False
+        self._wire = Wire(end, Answer)
+        self._watch()
+        return True
+
+    def _lose(self) -> None:
+        """Let go of a door that is gone, and knock at the next."""
+        self._unwatch()
+        wire, self._wire, self.is_open = self._wire, None, False
+        if wire:
+            wire.close()
+        self._join()
+
+    def _watch(self) -> None:
+        if self._loop and self._wire:
+            self._loop.watch(self._wire.fileno(), self.read)
+
+    def _unwatch(self) -> None:
+        if self._loop and self._wire:
+            self._loop.unwatch(self._wire.fileno())
+
+
+class RemoteRing:
+    """Keeps the newest samples; whoever finds it empty takes in what has arrived for any."""
+
+    def __init__(self, remote: Remote, identity: int, depth: int) -> None:
+        self._remote, self._id = remote, identity
+        self._samples: deque[Sample] = deque(maxlen=depth)
+        self.turns: Turns | None = None
+
+    @property
+    def is_empty(self) -> bool:
+        return not self._samples
+
+    def take(self, sample: Sample) -> None:
+        """Keep a sample that has arrived."""
+        self._samples.append(sample)
+        if self.turns:
+            self.turns.wake()
+
+    def try_recv(self) -> Sample | None:
+        if not self._samples:
+            self._remote.glance()
+        return self._samples.popleft() if self._samples else None
+
+    def recv(self) -> Sample:
+        while not self._samples:
+            if self._remote.closed:
+                raise EOFError
+            self._remote.await_more(float("inf"))
+        return self._samples.popleft()
+
+    def undeclare(self) -> None:
+        self._remote.undeclare(self._id)
+
+
+class RemoteOutlet:
+    """Says bytes under one key, by way of the door."""
+
+    matched = True
+
+    def __init__(self, remote: Remote, identity: int) -> None:
+        self._remote, self._id = remote, identity
+
+    def put(self, payload: bytes, encoding: str, attachment: bytes | None) -> None:
+        self._remote.put(Put(self._id, payload, encoding, attachment))
+
+
+class Turns:
+    """Hands what waits in a ring to its handler, one message a round of the loop."""
+
+    def __init__(self, inbox: Inbox, handler: Callable[[Any], object], loop: Loop) -> None:
+        self._inbox, self._handler, self._loop = inbox, handler, loop
+        self._waits = self._closed = False
+
+    def wake(self) -> None:
+        """Take a turn soon; for the loop's own thread."""
+        if not self._waits:
+            self._waits = True
+            self._loop.call_next(self._hand_over)
+
+    def close(self) -> None:
+        self._closed = True
+
+    def _hand_over(self) -> None:
+        self._waits = False
+        ring: Any = self._inbox.ring
+        if self._closed or ring.is_empty:
+            return
+        sample = ring.try_recv()
+        if not ring.is_empty:
+            self.wake()
+        received = self._inbox.read(sample)
+        if received is not None:
+            self._handler(received)
