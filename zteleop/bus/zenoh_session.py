@@ -256,7 +256,7 @@ def _configure(settings: BusSettings, settle: bool, door: bool = False) -> zenoh
         "connect/endpoints": connect,
         "connect/timeout_ms": 0 if settings.mode == "client" else -1,  # -1: goes on trying behind our back
         "connect/exit_on_failure": settings.mode == "client",
-        "connect/retry": {"period_init_ms": 100, "period_max_ms": 1000, "period_increase_factor": 1.5},
+        "connect/retry": {"period_init_ms": 100, "period_max_ms": 300, "period_increase_factor": 1.5},
         "listen/exit_on_failure": True,
         "scouting/multicast/enabled": settings.multicast,
         "scouting/delay": 500 if settle and settings.multicast else 0,
