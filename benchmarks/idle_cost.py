@@ -36,12 +36,17 @@ class Running(Protocol):
     pid: int
 
 
-def child_of(process: Running) -> Running:
-    """Return the actuator that this watchdog started."""
-    for child in Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split():
-        if b"--link" in Path(f"/proc/{child}/cmdline").read_bytes().split(b"\0"):
-            return SimpleNamespace(pid=int(child))
-    raise IndexError("this watchdog has no actuator now")
+PARTS = {"door": b"--door", "actuator": b"--link", "black box": b"--record"}
+"""What a watchdog starts, and how it says so."""
+
+
+def parts_of(watchdog: Running) -> dict[str, Running]:
+    """Return the watchdog of a robot, and what it has started."""
+    found: dict[str, Running] = {"watchdog": watchdog}
+    for child in Path(f"/proc/{watchdog.pid}/task/{watchdog.pid}/children").read_text().split():
+        words = Path(f"/proc/{child}/cmdline").read_bytes().split(b"\0")
+        found |= {name: SimpleNamespace(pid=int(child)) for name, flag in PARTS.items() if flag in words}
+    return found
 
 
 def private_mb(process: Running) -> float:
@@ -63,8 +68,7 @@ def main() -> None:
         for _ in operator.steer(20):
             pass
         processes = {
-            "watchdog": robot.actuator,
-            "actuator": child_of(robot.actuator),
+            **parts_of(robot.actuator),
             "keyboard": operator.process,
             "sim": robot.start("sim", "--connect", robot.endpoint, "--listen", "tcp/127.0.0.1:0"),
             "subscriber: Node, handler": _python(robot, SUBSCRIBER),
@@ -77,11 +81,17 @@ def main() -> None:
         for name, process in processes.items():
             memory = private_mb(process)
             target = "" if name.startswith("peer") else verdict(memory, MEMORY_TARGET, "MB")
-            ours = name in ("watchdog", "actuator")
+            ours = name in ("watchdog", "actuator", "door")
             cpu = verdict(max(idle[name], driven[name]), CPU_TARGET, "%") if ours else ""
             rows.append((name, memory, target, idle[name], driven[name], cpu))
+    rows.insert(len(PARTS) + 1, _in_all([row for row in rows if row[0] in ("watchdog", *PARTS)]))
     head = ["process", "own MB", "target", "% idle", "% driven", "target"]
     print_table(f"memory and share of one core over {seconds:g} s, at rest and driven at 20 Hz", head, rows)
+
+
+def _in_all(rows: list[tuple[object, ...]]) -> tuple[object, ...]:
+    memory, idle, driven = (sum(float(str(row[column])) for row in rows) for column in (1, 3, 4))
+    return ("the robot in all", memory, "", idle, driven, "")
 
 
 def _shares(processes: dict[str, Running], act: Callable[[], None]) -> dict[str, float]:

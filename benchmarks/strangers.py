@@ -9,7 +9,7 @@ from types import SimpleNamespace
 from typing import NamedTuple
 
 from figures import command_line, median, print_table
-from idle_cost import child_of, private_mb
+from idle_cost import parts_of, private_mb
 from processes import running
 from robot import ROBOT, Robot
 from stranger import ATTACKS
@@ -71,8 +71,8 @@ def strike(robot: Robot, attack: str) -> "subprocess.Popen[str]":
 
 
 def processes(robot: Robot) -> list[int]:
-    with suppress(OSError, IndexError, ValueError):
-        return [robot.actuator.pid, child_of(robot.actuator).pid]
+    with suppress(OSError):
+        return [part.pid for part in parts_of(robot.actuator).values()]
     return [robot.actuator.pid]
 
 
