@@ -4,7 +4,6 @@ import subprocess
 import sys
 import time
 from contextlib import suppress
-from pathlib import Path
 from types import SimpleNamespace
 from typing import NamedTuple
 
@@ -12,11 +11,10 @@ from figures import command_line, median, print_table
 from idle_cost import parts_of, private_mb
 from processes import running
 from robot import ROBOT, Robot
-from stranger import ATTACKS
 
+from zteleop.chaos.stranger import ATTACKS
 from zteleop.drivers.registers import read_duty_ticks
 
-STRANGER = str(Path(__file__).with_name("stranger.py"))
 NEUTRAL_THROTTLE, THROTTLE = 370, 0
 LASTS, AFTER = 8.0, 2.0
 """s of an attack, and s after its end in which it must be driven again"""
@@ -63,7 +61,8 @@ def until(robot: Robot, wanted: bool, seconds: float) -> float | None:
 def strike(robot: Robot, attack: str) -> "subprocess.Popen[str]":
     """Begin an attack; it lasts as long as the robot's `with`, or until it is killed."""
     process = robot.start_program(
-        [sys.executable, STRANGER, attack, robot.endpoint, ROBOT], stdout=subprocess.PIPE
+        [sys.executable, "-m", "zteleop.chaos.stranger", attack, robot.endpoint, ROBOT],
+        stdout=subprocess.PIPE,
     )
     assert process.stdout
     process.stdout.readline()

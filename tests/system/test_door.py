@@ -8,9 +8,10 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from faults.poison import is_deaf, poison
+from faults.deaf import is_deaf
 from rig import NEUTRAL, Rig, repeating, until
 
+from zteleop.chaos.spoiler import poison
 from zteleop.messages import Twist
 
 NEVER_OPENS = "import sys\nif '--door' in sys.orig_argv: raise SystemExit('no door')"
@@ -64,7 +65,7 @@ def frozen(robot: Robot) -> None:
 
 
 def poisoned(robot: Robot) -> None:
-    poison(robot.rig.port)
+    poison(robot.rig.endpoint)
 
 
 @pytest.mark.parametrize("breaks", [killed, frozen, poisoned])

@@ -9,6 +9,7 @@ KINDS = {
     "processes": "a process dies, freezes, or fails inside",
     "people": "several people, or one who does the wrong thing",
     "link": "the link is cut, slow, or comes back",
+    "strangers": "what anybody on an open network can do",
     "load": "floods, and a busy machine",
     "chip": "the chip does not answer, forgets, or is somebody else's",
 }

@@ -1,6 +1,6 @@
-"""What anybody on an open network can do to a robot, each until the process is ended.
+"""Does what anybody on an open network can do to a robot, until its process is ended.
 
-`python benchmarks/stranger.py ATTACK ENDPOINT ROBOT`; says "strikes" when it has begun.
+`python -m zteleop.chaos.stranger ATTACK ENDPOINT ROBOT`; says "strikes" when it has begun.
 """
 
 import os
@@ -10,13 +10,13 @@ import sys
 import time
 from collections.abc import Callable
 from contextlib import suppress
-from pathlib import Path
 
 import zenoh
 
 from zteleop.bus import codec
 from zteleop.bus.settings import BusSettings
-from zteleop.bus.zenoh_session import open_zenoh
+from zteleop.bus.zenoh_session import ZenohSession, open_zenoh
+from zteleop.chaos.spoiler import dial, poison
 from zteleop.control.proof import Prover
 from zteleop.messages import Beat, Twist
 
@@ -47,24 +47,20 @@ def at(rate: float, act: Callable[[int], object]) -> None:
         time.sleep(max(0.0, due - time.monotonic()))
 
 
-def poison(endpoint: str, robot: str) -> None:
+def declare_what_is_none(endpoint: str, robot: str) -> None:
     """Declare what is no key expression, once, and leave."""
-    sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
-    from faults import poison as ways
-
-    ways.poison(int(endpoint.rpartition(":")[2]))
+    poison(endpoint)
     strike()
     signal.pause()
 
 
 def idle_connections(endpoint: str, robot: str) -> None:
     """Connect, and say nothing; whoever is let go comes again."""
-    port = int(endpoint.rpartition(":")[2])
     held: list[socket.socket] = []
 
     def connect(number: int) -> None:
         with suppress(OSError):
-            held.append(socket.create_connection(("127.0.0.1", port), timeout=1.0))
+            held.append(dial(endpoint))
         if len(held) > CONNECTIONS:
             held.pop(0).close()
 
@@ -80,10 +76,10 @@ def garbage_beats(endpoint: str, robot: str) -> None:
 
 def churning_tokens(endpoint: str, robot: str) -> None:
     """Come and go as a sender of commands."""
-    session = join(endpoint)
+    session = ZenohSession(join(endpoint))
 
     def come_and_go(number: int) -> None:
-        session.liveliness().declare_token(f"robot/{robot}/live/sender/{number % 1000:x}").undeclare()
+        session.stand(f"robot/{robot}/live/sender/{number % 1000:x}").undeclare()
 
     at(CHURN_HZ, come_and_go)
 
@@ -127,14 +123,15 @@ def many_senders(endpoint: str, robot: str) -> None:
         nonlocal newest
         newest = beats.try_recv() or newest
         beat = codec.decode(bytes(newest.payload), str(newest.encoding), codec.decoders([Beat]))
+        assert isinstance(beat, Beat)
         proof = provers[number % SENDERS].prove(beat, False, time.monotonic())
         commands.put(rest, encoding=TWIST, attachment=codec.pack_proof(proof) if proof else None)
 
     at(NEUTRAL_HZ, say)
 
 
-ATTACKS = {
-    "a declaration that is none": poison,
+ATTACKS: dict[str, Callable[[str, str], None]] = {
+    "a declaration that is none": declare_what_is_none,
     "connections that say nothing": idle_connections,
     "garbage on the beat": garbage_beats,
     "tokens that come and go": churning_tokens,
@@ -142,6 +139,7 @@ ATTACKS = {
     "sessions that say nothing": idle_sessions,
     "neutral under many names": many_senders,
 }
+"""As people call them, and what does them."""
 
 if __name__ == "__main__":
     ATTACKS[sys.argv[1]](*sys.argv[2:])
