@@ -31,6 +31,11 @@ _POOLS = re.compile(rf"\({_POOL}(,{_POOL})*\)")
 _PATIENCE_US = 100_000
 """for who passes messages on: a client that takes none for so long is let go, before it holds up the commands
 of others; zenoh's own patience is 5 s"""
+_SPEAKS_WITHIN_MS, _UNSPOKEN = 1000, 300
+"""for the same: a connection that says nothing for so long is let go, and so many may be there at once; of
+zenoh's own there are 100, for 10 s, and whoever comes then waits for as long"""
+_SESSIONS = 500
+"""for the same; with those that say nothing, fewer than the 1024 files a process may usually have open"""
 _RETRY = 0.1
 _REPLY_WITHIN = 2.0
 """s for everybody to say which tokens there are"""
@@ -268,6 +273,9 @@ def _configure(settings: BusSettings, settle: bool, door: bool = False) -> zenoh
     }
     if door or settings.mode == "router":
         values["transport/link/tx/queue/congestion_control/block/wait_before_close"] = _PATIENCE_US
+        values["transport/unicast/accept_timeout"] = _SPEAKS_WITHIN_MS
+        values["transport/unicast/accept_pending"] = _UNSPOKEN
+        values["transport/unicast/max_sessions"] = _SESSIONS
     if settings.listen:
         values["listen/endpoints"] = settings.listen
     config = zenoh.Config()

@@ -16,6 +16,16 @@ _FULL = {
 _NO_THREAD = "can't start new thread"
 
 
+def allow_files(number: int) -> None:
+    """Let this process have so many files open, as far as its system lets it; macOS begins with 256."""
+    if resource is None:
+        return
+    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+    wanted = number if hard == resource.RLIM_INFINITY else min(number, hard)
+    if soft != resource.RLIM_INFINITY and soft < wanted:
+        resource.setrlimit(resource.RLIMIT_NOFILE, (wanted, hard))
+
+
 def reached(error: BaseException) -> str:
     """Return which limit an error means and what to do; nothing where it is no limit."""
     if isinstance(error, MemoryError):

@@ -288,3 +288,13 @@ def test_what_zenoh_refuses_to_say_is_an_error_of_the_bus() -> None:
     assert outlet.matched is True
     with pytest.raises(BusError, match="closed"):
         outlet.put(b"{}", "text/plain", None)
+
+
+def test_whoever_meets_strangers_has_limits_below_what_a_process_may_open() -> None:
+    config = module._configure(BusSettings(), False, True)
+    unspoken, sessions, within = (
+        value(config, f"transport/unicast/{name}")
+        for name in ("accept_pending", "max_sessions", "accept_timeout")
+    )
+    assert unspoken + sessions < 1024 - 100
+    assert within == 1000

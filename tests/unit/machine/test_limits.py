@@ -40,3 +40,23 @@ def test_each_limit_says_what_to_do(error: Exception, says: str) -> None:
 )
 def test_what_is_no_limit_is_none(error: Exception) -> None:
     assert limits.reached(error) == ""
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        ((256, resource.RLIM_INFINITY), (1024, resource.RLIM_INFINITY)),
+        ((256, 512), (512, 512)),
+        ((1024, 4096), (1024, 4096)),
+        ((4096, 4096), (4096, 4096)),
+        ((resource.RLIM_INFINITY, resource.RLIM_INFINITY), (resource.RLIM_INFINITY, resource.RLIM_INFINITY)),
+    ],
+)
+def test_files_are_allowed_as_far_as_the_system_lets_it(
+    monkeypatch: pytest.MonkeyPatch, before: tuple[int, int], after: tuple[int, int]
+) -> None:
+    set_to = [before]
+    monkeypatch.setattr(resource, "getrlimit", lambda kind: before)
+    monkeypatch.setattr(resource, "setrlimit", lambda kind, limit: set_to.append(limit))
+    limits.allow_files(1024)
+    assert set_to[-1] == after
