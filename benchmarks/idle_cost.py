@@ -36,8 +36,8 @@ class Running(Protocol):
     pid: int
 
 
-PARTS = {"door": b"--door", "actuator": b"--link", "black box": b"--record"}
-"""What a watchdog starts, and how it says so."""
+PARTS = ("door", "actuator", "blackbox")
+"""What a watchdog starts."""
 
 
 def parts_of(watchdog: Running) -> dict[str, Running]:
@@ -45,7 +45,7 @@ def parts_of(watchdog: Running) -> dict[str, Running]:
     found: dict[str, Running] = {"watchdog": watchdog}
     for child in Path(f"/proc/{watchdog.pid}/task/{watchdog.pid}/children").read_text().split():
         words = Path(f"/proc/{child}/cmdline").read_bytes().split(b"\0")
-        found |= {name: SimpleNamespace(pid=int(child)) for name, flag in PARTS.items() if flag in words}
+        found |= {name: SimpleNamespace(pid=int(child)) for name in PARTS if name.encode() in words[3:]}
     return found
 
 

@@ -72,11 +72,12 @@ def descendants(pid: int) -> list[int]:
     return children + [further for child in children for further in descendants(child)]
 
 
-def part(watchdog: int, flag: bytes) -> int | None:
-    """Return the process that a watchdog started with a flag, if there is one now."""
+def part(watchdog: int, program: bytes) -> int | None:
+    """Return the process of a program that a watchdog started, if there is one now."""
+    wanted = {b"zteleop.processes", program}  # one that is just being started has its parent's words
     with suppress(OSError):
         for child in Path(f"/proc/{watchdog}/task/{watchdog}/children").read_text().split():
-            if flag in Path(f"/proc/{child}/cmdline").read_bytes().split(b"\0"):
+            if wanted <= set(Path(f"/proc/{child}/cmdline").read_bytes().split(b"\0")):
                 return int(child)
     return None
 
@@ -147,17 +148,17 @@ class Process:
     @property
     def child(self) -> int | None:
         """The actuator that this process started and watches over, if there is one now."""
-        return part(self.process.pid, b"--link")
+        return part(self.process.pid, b"actuator")
 
     @property
     def door(self) -> int | None:
         """The door that this process started, if there is one now."""
-        return part(self.process.pid, b"--door")
+        return part(self.process.pid, b"door")
 
     @property
     def recorder(self) -> int | None:
         """The black box that this process started, if there is one now."""
-        return part(self.process.pid, b"--record")
+        return part(self.process.pid, b"blackbox")
 
     def ends(self) -> int:
         """Wait for the end; return the exit code."""

@@ -13,6 +13,7 @@ from zteleop.chaos.load import CROWD, FLOOD, KNOWN, LARGE
 from zteleop.chaos.operators import here
 from zteleop.chaos.people import press
 from zteleop.config import Config
+from zteleop.processes import PROGRAMS
 
 MOST = 10.0
 """MB that a process may grow"""
@@ -35,7 +36,7 @@ def family(pid: int) -> list[int]:
 def name(pid: int) -> str:
     """Return what a process of the robot does."""
     command = Path(f"/proc/{pid}/cmdline").read_bytes().split(b"\0")
-    return "actuator" if b"--link" in command else "black box" if b"--record" in command else "watchdog"
+    return next((name for name in PROGRAMS if name.encode() in command[3:]), "watchdog")
 
 
 def main() -> int:

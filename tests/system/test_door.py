@@ -14,7 +14,7 @@ from rig import NEUTRAL, Rig, repeating, until
 from zteleop.chaos.spoiler import poison
 from zteleop.messages import Twist
 
-NEVER_OPENS = "import sys\nif '--door' in sys.orig_argv: raise SystemExit('no door')"
+NEVER_OPENS = "import sys\nif 'door' in sys.orig_argv: raise SystemExit('no door')"
 
 
 class Robot:

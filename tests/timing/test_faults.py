@@ -85,7 +85,7 @@ def test_the_real_driver_keeps_the_same_bounds_and_waits_for_consent(tmp_path: P
 
 def test_nobody_drives_a_bench_before_its_actuator_is_there(tmp_path: Path) -> None:
     """Its operator waits a second for a robot, then holds on: one that began too early waits for ever."""
-    late = "import sys, time\nif '--link' in sys.orig_argv: time.sleep(2.5)"
+    late = "import sys, time\nif {'zteleop.processes', 'actuator'} <= {*sys.orig_argv}: time.sleep(2.5)"
     (tmp_path / "sitecustomize.py").write_text(late)  # which Python imports at each start
     subject = Subject(Config(), ("--driver", "simulated"), {"PYTHONPATH": str(tmp_path)})
     with driven(subject, SHORT[0]) as bench:

@@ -70,16 +70,17 @@ class Process:
 
 def actuator_of(watchdog: int) -> int | None:
     """Return the process that a watchdog has started to obey commands, if there is one now."""
-    return _part(watchdog, b"--link")
+    return _part(watchdog, b"actuator")
 
 
 def door_of(watchdog: int) -> int | None:
     """Return the process by which a robot is on the bus, if there is one now."""
-    return _part(watchdog, b"--door")
+    return _part(watchdog, b"door")
 
 
-def _part(watchdog: int, flag: bytes) -> int | None:
-    return next((child for child in _children(watchdog) if flag in _command(child)), None)
+def _part(watchdog: int, program: bytes) -> int | None:
+    wanted = {b"zteleop.processes", program}  # a child that is just being started has its parent's words
+    return next((child for child in _children(watchdog) if wanted <= set(_command(child))), None)
 
 
 def _children(pid: int) -> list[int]:

@@ -28,26 +28,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         choices=["acts", "all", "off"],
         help="what to keep of the commands on disk: who acted (default), every one, nothing",
     )
-    parser.add_argument("--link", type=int, help=argparse.SUPPRESS)
-    parser.add_argument("--door", type=int, nargs=2, help=argparse.SUPPRESS)
-    parser.add_argument("--record", action="store_true", help=argparse.SUPPRESS)
     options.add_parent(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Watch over a robot; with --link be its actuator, with --door its door, with --record its black box."""
-    if arguments.link is not None:
-        from zteleop.processes import actuator  # what the watchdog itself need not hold in memory
-
-        return actuator.run(arguments.link)
-    if arguments.door:
-        from zteleop.processes import door
-
-        return door.run(*arguments.door)
-    if arguments.record:
-        from zteleop.processes import blackbox
-
-        return blackbox.run()
+    """Watch over a robot until told to end."""
     settings = options.load(arguments)
     robot = settings.robot or config.own_name()
     name = arguments.driver or settings.driver

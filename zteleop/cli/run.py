@@ -5,9 +5,7 @@ import io
 import sys
 from importlib import import_module
 
-from zteleop.bus.escape import printable
-from zteleop.errors import ZteleopError
-from zteleop.machine import limits, signals
+from zteleop.processes.ending import in_words
 
 
 def run_verb(verb: str, text: str, arguments: list[str]) -> int:
@@ -19,24 +17,4 @@ def run_verb(verb: str, text: str, arguments: list[str]) -> int:
     parser.add_argument("--debug", action="store_true", help="show the traceback of an error")
     module.add_arguments(parser)
     options = parser.parse_args(arguments)
-    undo_signals = signals.unwind()
-    try:
-        return module.run(options) or 0
-    except BrokenPipeError:
-        raise
-    except ZteleopError as error:
-        if options.debug:
-            raise
-        _say(verb, str(error))
-        return error.exit_code
-    except Exception as error:
-        if options.debug:
-            raise
-        _say(verb, limits.reached(error) or f"{type(error).__name__}: {error} (a bug; --debug shows where)")
-        return 1
-    finally:
-        undo_signals()
-
-
-def _say(verb: str, words: str) -> None:
-    print(printable(f"zteleop {verb}: {words}", keep="\n"), file=sys.stderr)
+    return in_words(f"zteleop {verb}", lambda: module.run(options), debug=options.debug)

@@ -41,7 +41,7 @@ class Child:
         """Start the process; nobody else holds an end of its link."""
         self.link, theirs = link.pair()
         with theirs:
-            command = [*self._command, "--link", str(theirs.fileno())]
+            command = [*self._command, str(theirs.fileno())]
             # In a session of its own, so that no key of a terminal ends or stops both processes at once.
             self._process = subprocess.Popen(
                 command,

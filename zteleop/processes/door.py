@@ -14,13 +14,15 @@ from zteleop.bus.loop import Loop
 from zteleop.bus.settings import BusSettings
 from zteleop.bus.zenoh_session import ZenohSession, open_zenoh
 from zteleop.errors import ConfigError, DeviceError
-from zteleop.machine import realtime, signals, stderr
+from zteleop.machine import limits, realtime, signals, stderr
 from zteleop.machine.door import ALIVE, ALIVE_EVERY
 from zteleop.processes import PROGRAMS
 
 PROGRAM = PROGRAMS["door"]
 PROVE_EVERY = 0.25
 """s; 50 us of work each"""
+FILES = 1024
+"""that may be open, which is as many as `select` takes: zenoh's own limits lie below it"""
 BROKEN = 70
 """EX_SOFTWARE of sysexits.h"""
 
@@ -40,6 +42,7 @@ def run(listener: int, link: int) -> int:
     orders = _orders(sys.stdin.buffer.read())
     place, watchdog = _adopt(listener), _adopt(link)
     watchdog.setblocking(False)
+    limits.allow_files(FILES)
     with realtime.lent(PROGRAM.priority):
         session = ZenohSession(open_zenoh(orders.bus, settle=orders.settle, door=True))
     with place, watchdog, session:

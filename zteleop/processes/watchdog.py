@@ -36,8 +36,7 @@ GLANCE, LOOK_EVERY = 0.005, 0.05
 """s between looks at the door: until it is open, and then"""
 SPEAKS_WITHIN = 1.0
 """s; a watchdog says five times a second what it sees"""
-CHILD = [sys.executable, "-m", "zteleop", "actuator"]
-RECORDER = [*CHILD, "--record"]
+PROGRAM_OF = [sys.executable, "-m", "zteleop.processes"]
 
 
 def run(settings: Config, hand: PulseDriver, joined: Callable[[Node], object]) -> int:
@@ -48,7 +47,7 @@ def run(settings: Config, hand: PulseDriver, joined: Callable[[Node], object]) -
         place = None if len(tempfile.gettempdir()) < LONGEST_PLACE else "/tmp"
         folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="zteleop-", dir=place))
         bus = _reachable(settings.bus)
-        door = Door([*CHILD, "--door"], lambda first: _orders(bus, first), f"{folder}/door", stderr.say)
+        door = Door([*PROGRAM_OF, "door"], lambda first: _orders(bus, first), f"{folder}/door", stderr.say)
         stack.callback(door.close)
         behind = BusSettings(mode="client", connect=[f"{DOOR}{door.place}"], multicast=False)
         session = stack.enter_context(open_session(behind))
@@ -63,8 +62,8 @@ def run(settings: Config, hand: PulseDriver, joined: Callable[[Node], object]) -
             stack.callback(pin.close)
         _privileges(node)
         orders = msgspec.json.encode(msgspec.structs.replace(settings, bus=behind))
-        child = Child(CHILD, orders, hand.shared())
-        recorder = Recorder(RECORDER, orders, node.log.warn) if settings.blackbox else None
+        child = Child([*PROGRAM_OF, "actuator"], orders, hand.shared())
+        recorder = Recorder([*PROGRAM_OF, "blackbox"], orders, node.log.warn) if settings.blackbox else None
         stop_file = StopFile(config.state_folder(robot) / "stop", node.log.error)
         lane = stack.enter_context(closing(Ear(robot, bus, node.log.warn)))
         dog = Watchdog(node, settings.drive, hand, child, stop_file, _switch(node, pin), recorder, lane)

@@ -9,7 +9,6 @@ from zteleop.control.drive import DriveSettings
 from zteleop.control.mixer import Differential
 from zteleop.control.servo import Servo
 from zteleop.errors import ConfigError
-from zteleop.processes import actuator as watched
 
 TANK = DriveSettings(mixer=Differential(), servos={"left": Servo(channel=0), "right": Servo(channel=1)})
 
@@ -53,8 +52,3 @@ def test_what_cannot_be_obeyed_is_refused(typed: dict[str, Any], words: str) -> 
 def test_a_vehicle_without_a_throttle_has_no_neutral_to_shift() -> None:
     with pytest.raises(ConfigError, match="throttle"):
         tuned(TANK, neutral_offset=3)
-
-
-def test_with_a_link_it_is_the_one_that_is_watched(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(watched, "run", lambda number: 40 + number)
-    assert actuator.run(argparse.Namespace(link=2)) == 42

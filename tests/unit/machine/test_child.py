@@ -99,8 +99,8 @@ def child(nursery: Nursery) -> Iterator[Child]:
 
 def test_it_is_started_with_its_link_its_files_and_its_settings(child: Child, nursery: Nursery) -> None:
     (process,) = nursery.born
-    *command, option, number = process.command
-    assert (command, option) == (["zteleop", "actuator"], "--link")
+    *command, number = process.command
+    assert command == ["zteleop", "actuator"]
     assert process.options["pass_fds"] == [int(number), 33]
     assert (process.stdin.data, process.stdin.closed) == (b"settings\nnull", True)
     assert (child.starts, child.ready, child.gone) == (1, False, False)
