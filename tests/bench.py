@@ -18,14 +18,14 @@ START = """
 import sys
 from zteleop.cli import main
 from zteleop.processes import watchdog
-watchdog.CHILD = [sys.executable, "-c", sys.argv[1]]
+watchdog.ACTUATOR = [sys.executable, "-c", sys.argv[1], "zteleop.processes", "actuator"]
 sys.exit(main(["actuator", *sys.argv[2:]]))
 """
 ACTUATOR = """
 import sys
 {defect}
-from zteleop.cli import main
-sys.exit(main(["actuator", *sys.argv[1:]]))
+from zteleop.processes.__main__ import main
+sys.exit(main(sys.argv[2:]))
 """
 IGNORES_IDLENESS = """
 from zteleop.control.gate import Gate, Refusal

@@ -69,7 +69,7 @@ def poisoned(robot: Robot) -> None:
 
 
 @pytest.mark.parametrize("breaks", [killed, frozen, poisoned])
-def test_a_robot_whose_door_breaks_rests_until_another_opens_and_is_driven_on(
+def test_a_robot_whose_door_breaks_opens_another_and_is_driven_on(
     robot: Robot, breaks: Callable[[Robot], None]
 ) -> None:
     breaks(robot)

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import Any, NamedTuple, Protocol, Self
 
 from zteleop.bus.loop import Loop
-from zteleop.bus.settings import DOOR, BusSettings
+from zteleop.bus.settings import BEHIND, BusSettings
 
 
 class Sample(NamedTuple):
@@ -94,10 +94,10 @@ def open_session(settings: BusSettings, *, settle: bool = False, door: bool = Fa
 
     Raises ConfigError for an endpoint that is none, BusError when there is no router to a client.
     """
-    if settings.connect and settings.connect[0].startswith(DOOR):
+    if settings.connect and settings.connect[0].startswith(BEHIND):
         from zteleop.bus.door.remote import Remote  # and nothing of zenoh
 
-        return Remote(settings.connect[0].removeprefix(DOOR))
+        return Remote(settings.connect[0].removeprefix(BEHIND))
     from zteleop.bus.zenoh_session import ZenohSession, open_zenoh  # not what reads settings needs it
 
     return ZenohSession(open_zenoh(settings, settle=settle, door=door))

@@ -8,7 +8,7 @@ PORT = 7447
 IF_FREE = "#exit_on_failure=false"
 """After an endpoint to listen on: when another has it, go on without."""
 ROBOT_ENDPOINT = f"tcp/[::]:{PORT}{IF_FREE}"
-DOOR = "door/"
+BEHIND = "door/"
 """Before the place of a robot's door: an endpoint of the robot's own processes."""
 SAME_MACHINE = f"tcp/127.0.0.1:{PORT}"
 SAME_MACHINE_DOOR = f"{SAME_MACHINE}{IF_FREE}"

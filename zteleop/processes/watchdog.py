@@ -13,7 +13,7 @@ from zteleop.bus import clock, presence
 from zteleop.bus.lane.ear import Ear
 from zteleop.bus.node import Node
 from zteleop.bus.session import Session, open_session
-from zteleop.bus.settings import DOOR, ROBOT_ENDPOINT, BusSettings
+from zteleop.bus.settings import BEHIND, ROBOT_ENDPOINT, BusSettings
 from zteleop.config import Config
 from zteleop.drivers import PulseDriver, output_enable
 from zteleop.drivers.output_enable import OutputEnable
@@ -36,7 +36,9 @@ GLANCE, LOOK_EVERY = 0.005, 0.05
 """s between looks at the door: until it is open, and then"""
 SPEAKS_WITHIN = 1.0
 """s; a watchdog says five times a second what it sees"""
-PROGRAM_OF = [sys.executable, "-m", "zteleop.processes"]
+DOOR, ACTUATOR, BLACKBOX = (
+    [sys.executable, "-m", "zteleop.processes", name] for name in ("door", "actuator", "blackbox")
+)
 
 
 def run(settings: Config, hand: PulseDriver, joined: Callable[[Node], object]) -> int:
@@ -47,9 +49,9 @@ def run(settings: Config, hand: PulseDriver, joined: Callable[[Node], object]) -
         place = None if len(tempfile.gettempdir()) < LONGEST_PLACE else "/tmp"
         folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="zteleop-", dir=place))
         bus = _reachable(settings.bus)
-        door = Door([*PROGRAM_OF, "door"], lambda first: _orders(bus, first), f"{folder}/door", stderr.say)
+        door = Door(DOOR, lambda first: _orders(bus, first), f"{folder}/door", stderr.say)
         stack.callback(door.close)
-        behind = BusSettings(mode="client", connect=[f"{DOOR}{door.place}"], multicast=False)
+        behind = BusSettings(mode="client", connect=[f"{BEHIND}{door.place}"], multicast=False)
         session = stack.enter_context(open_session(behind))
         if code := _open(door):
             return code
@@ -62,8 +64,8 @@ def run(settings: Config, hand: PulseDriver, joined: Callable[[Node], object]) -
             stack.callback(pin.close)
         _privileges(node)
         orders = msgspec.json.encode(msgspec.structs.replace(settings, bus=behind))
-        child = Child([*PROGRAM_OF, "actuator"], orders, hand.shared())
-        recorder = Recorder([*PROGRAM_OF, "blackbox"], orders, node.log.warn) if settings.blackbox else None
+        child = Child(ACTUATOR, orders, hand.shared())
+        recorder = Recorder(BLACKBOX, orders, node.log.warn) if settings.blackbox else None
         stop_file = StopFile(config.state_folder(robot) / "stop", node.log.error)
         lane = stack.enter_context(closing(Ear(robot, bus, node.log.warn)))
         dog = Watchdog(node, settings.drive, hand, child, stop_file, _switch(node, pin), recorder, lane)
