@@ -34,8 +34,9 @@ of others; zenoh's own patience is 5 s"""
 _SPEAKS_WITHIN_MS, _UNSPOKEN = 1000, 300
 """for the same: a connection that says nothing for so long is let go, and so many may be there at once; of
 zenoh's own there are 100, for 10 s, and whoever comes then waits for as long"""
-_SESSIONS = 500
-"""for the same; with those that say nothing, fewer than the 1024 files a process may usually have open"""
+_SESSIONS = 200
+"""for the same: each costs 90 kB, and a class of thirty has some 120; with the connections that say nothing
+they are fewer than the 1024 files a process may usually have open"""
 _RETRY = 0.1
 _REPLY_WITHIN = 2.0
 """s for everybody to say which tokens there are"""

@@ -31,8 +31,9 @@ from zteleop.bus.zenoh_session import Undeclarable, ZenohSession
 from zteleop.control.allowance import Allowance
 from zteleop.errors import BusError
 
-AT_ONCE, EVERY = 500, 0.001
-"""samples of one key, and s until there may be one more: a flood costs the robot this much and no more"""
+AT_ONCE, EVERY, EVERY_PROVEN = 500, 0.001, 0.0002
+"""samples of one key, and s until there may be one more: a flood costs the robot this much and no more. What
+comes with a proof counts apart, so that nothing without one takes a command's place"""
 WAITING = 2**22
 """bytes that wait for a process that reads nothing; what comes after them is lost"""
 FLUSH_EVERY = 0.02
@@ -136,10 +137,11 @@ class Guest:
 
     def _passer(self, identity: int) -> Callable[[Sample], None]:
         """Return what passes samples on; zenoh calls it in threads of its own."""
-        allowance = Allowance(AT_ONCE, EVERY)
+        bare, proven = Allowance(AT_ONCE, EVERY), Allowance(AT_ONCE, EVERY_PROVEN)
 
         def passes(sample: Sample) -> None:
             now = clock.now()
+            allowance = bare if sample.attachment is None else proven
             if allowance.has(now):
                 allowance.spend(now)
                 self._pass(Arrived(identity, *sample))

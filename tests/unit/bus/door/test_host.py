@@ -219,6 +219,24 @@ def test_a_flood_costs_a_robot_so_much_and_no_more(house: House, monkeypatch: py
         assert (len(heard), len(stops)) == (module.AT_ONCE, 1)
 
 
+def test_a_flood_without_a_proof_takes_no_commands_place(
+    house: House, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    guest, now = house.guest(), clock.now()
+    ring = guest.subscribe("robot/a/pwm", 10_000)
+    house.settle(guest)
+    monkeypatch.setattr(module.clock, "now", lambda: now)
+    for _ in range(2 * module.AT_ONCE):
+        house.zenoh.say(Sample("robot/a/pwm", b"bare", ""))
+    house.zenoh.say(Sample("robot/a/pwm", b"command", "", b"proof"))
+    heard = []
+    while b"command" not in heard:
+        house.host._flush()
+        guest.read()
+        heard += [sample.payload for sample in taken(ring)]
+    assert len(heard) == module.AT_ONCE + 1
+
+
 def test_who_reads_nothing_holds_up_nobody_and_hears_the_rest_later(house: House) -> None:
     frozen, other = house.guest(), house.guest()
     late, ring = frozen.subscribe("robot/a/odd", 10_000), other.subscribe("robot/a/odd", 10_000)
