@@ -74,4 +74,4 @@ def poison(endpoint: str) -> None:
         with ZenohSession(open_zenoh(bus)) as session:
             rings = [session.subscribe(f"robot/bench/{name}", 1) for name in (SOUND.decode(), "sound")]
             time.sleep(ANSWERS_WITHIN)
-            assert rings
+            del rings  # until here: what nobody holds is undeclared

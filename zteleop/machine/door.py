@@ -57,7 +57,8 @@ class Door:
         return max(0, self._process.poll() or 0)
 
     def start(self, now: float) -> None:
-        """Start the process; nobody else holds its end of the link."""
+        """Start the process; nobody else holds its end of the link. Raises OSError when the system cannot."""
+        self._started, self.is_open = now, False
         self._link, theirs = socket.socketpair()
         self._link.setblocking(False)
         with theirs:
@@ -71,7 +72,7 @@ class Door:
         assert self._process.stdin
         with suppress(BrokenPipeError), self._process.stdin as ear:
             ear.write(self._orders(self.starts == 0))
-        self._due, self._started, self.is_open = None, now, False
+        self._due = None
         self.starts += 1
 
     def tend(self, now: float) -> None:
@@ -81,9 +82,15 @@ class Door:
             return
         if self._due is not None:
             if now >= self._due and self._is_gone:
-                self.start(now)
+                self._start_again(now)
         elif why := self._listen(now) or ("" if late else self._judge(now)):
             self._break(why, now)
+
+    def _start_again(self, now: float) -> None:
+        try:
+            self.start(now)
+        except OSError as error:  # no memory, or no more processes: that ends nobody who guards the chip
+            self._break(f"none can be started ({error.strerror})", now)
 
     def close(self) -> None:
         """Ask it to end, and see to it."""

@@ -1,5 +1,6 @@
 """Real processes that are as good as a door, in the test's time."""
 
+import errno
 import os
 import signal
 import sys
@@ -175,3 +176,20 @@ def test_its_end_in_order_is_left_to_it(opened: House) -> None:
     assert process
     opened.door.close()
     assert process.returncode == 0
+
+
+def test_one_that_the_system_cannot_start_is_tried_ever_later_and_ends_nobody(
+    opened: House, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*_: object, **__: object) -> None:
+        raise BlockingIOError(errno.EAGAIN, "Resource temporarily unavailable")
+
+    monkeypatch.setattr(module, "SILENCE", float("inf"))
+    opened.tend(STEADY + 1)
+    with monkeypatch.context() as without:
+        without.setattr(module.subprocess, "Popen", full)
+        opened.kill()
+        opened.tend(1.0)
+        said = [words for words in opened.words if "none can be started (Resource" in words]
+        assert 3 <= len(said) <= 6
+    opened.until(lambda: opened.door.is_open or opened.tend(0.1))

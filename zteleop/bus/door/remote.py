@@ -12,6 +12,7 @@ from collections.abc import Callable
 from itertools import count
 from typing import Any, Self
 
+from zteleop.bus import clock
 from zteleop.bus.door.frames import (
     Advertise,
     Answer,
@@ -26,7 +27,7 @@ from zteleop.bus.door.frames import (
     WatchTokens,
 )
 from zteleop.bus.door.wire import Wire
-from zteleop.bus.loop import Loop
+from zteleop.bus.loop import Loop, Timer
 from zteleop.bus.session import Inbox, Sample
 from zteleop.errors import BusError
 
@@ -34,6 +35,8 @@ REPLY_WITHIN = 3.0
 """s; zenoh itself answers within two"""
 GLANCE = 0.0005
 """s after a look that found nothing, in which nobody looks again: many inboxes share one wire"""
+KNOCK_EVERY = 0.05
+"""s, where nobody listens at the place"""
 READS = 16
 """pieces taken in at once"""
 
@@ -48,6 +51,7 @@ class Remote:
         self._rings: dict[int, RemoteRing] = {}
         self._answers: dict[int, list[str]] = {}
         self._loop: Loop | None = None
+        self._knock: Timer | None = None
         self._wire: Wire[Answer] | None = None
         self._looked = float("-inf")
         self.is_open = self.closed = False
@@ -84,7 +88,7 @@ class Remote:
         turns: Turns = Turns(inbox, handler, loop)
         ring.turns = turns
         if self._loop is None:
-            self._loop = loop
+            self._loop, self._knock = loop, loop.alarm(self.read)
             self._watch()
         return turns
 
@@ -114,6 +118,7 @@ class Remote:
     def read(self) -> None:
         """Take in what has arrived."""
         if self.closed or not (self._wire or self._join()):
+            self._knock_again()
             return
         for _ in range(READS):
             assert self._wire
@@ -201,7 +206,13 @@ class Remote:
         wire, self._wire, self.is_open = self._wire, None, False
         if wire:
             wire.close()
-        self._join()
+        if not self._join():
+            self._knock_again()
+
+    def _knock_again(self) -> None:
+        """Try to join a little later: a loop is woken only by a door that it has joined."""
+        if self._knock and not self.closed:
+            self._knock.due = clock.now() + KNOCK_EVERY
 
     def _watch(self) -> None:
         if self._loop and self._wire:

@@ -1,5 +1,6 @@
 """A door and those behind it, over real sockets; zenoh is a table of callbacks."""
 
+import os
 import socket
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -263,3 +264,60 @@ def test_a_name_that_zenoh_does_not_take_is_said_and_ends_nobody(house: House) -
     house.zenoh.say(Sample("robot/a/pwm", b"1", ""))
     house.settle(guest)
     assert len(taken(ring)) == 1
+
+
+class Inbox:
+    """An inbox whose samples are read as they came."""
+
+    def __init__(self, ring: Any) -> None:
+        self.ring = ring
+
+    def read(self, sample: Sample) -> Sample:
+        return sample
+
+
+def test_a_handler_has_one_message_a_round_however_many_wait_for_another(house: House) -> None:
+    guest, loop, heard = house.guest(), Loop(lambda: None), []
+    for topic in ("pwm", "stop"):
+        ring = guest.subscribe(f"robot/a/{topic}", 10)
+        guest.deliver(Inbox(ring), lambda sample: heard.append(sample.key[8:]), loop)
+    house.loop.run(clock.now() + 0.01)
+    for key in 3 * ["robot/a/pwm"] + ["robot/a/stop"]:
+        house.zenoh.say(Sample(key, b"1", ""))
+    loop.run(clock.now() + 0.05)
+    guest.close()
+    loop.close()
+    assert heard == ["pwm", "stop", "pwm", "pwm"]
+
+
+def test_who_waits_for_a_message_has_it_and_a_closed_session_ends_the_wait(house: House) -> None:
+    guest = house.guest()
+    ring = guest.subscribe("robot/a/pwm", 10)
+    house.settle(guest)
+    house.zenoh.say(Sample("robot/a/pwm", b"1", ""))
+    assert ring.recv().payload == b"1"
+    guest.close()
+    with pytest.raises(EOFError):
+        ring.recv()
+
+
+def test_who_finds_nobody_at_the_place_knocks_again(house: House) -> None:
+    guest, loop = house.guest(), Loop(lambda: None)
+    ring = guest.subscribe("robot/a/pwm", 10)
+    guest.deliver(Inbox(ring), lambda sample: loop.stop(), loop)
+    house.settle(guest)
+    house.listener.close()
+    house.fall()
+    guest.read()
+    os.unlink(house.place)
+    house.listener = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+    house.listener.bind(house.place)
+    house.listener.listen()
+    house.open()
+    give_up = clock.now() + 30.0
+    while not guest.is_open and clock.now() < give_up:
+        house.loop.run(clock.now())
+        loop.run(clock.now() + 0.01)
+    assert guest.is_open
+    guest.close()
+    loop.close()
