@@ -248,7 +248,7 @@ def test_controls_that_are_none_move_nothing(say: Say, harmless: None, data: obj
 
 def test_a_delete_is_no_command(stranger: zenoh.Session, harmless: None) -> None:
     for key in (*COMMAND_KEYS, "robot/bench/cmd_vel/**", "robot/**"):
-        stranger.delete(key)
+        stranger.delete(key, congestion_control=BLOCK)
 
 
 def test_commands_to_every_robot_at_once_move_none(say: Say, harmless: None) -> None:

@@ -75,7 +75,8 @@ def is_harmless(text: str) -> None:
 def said_by(rig: Rig, stranger: zenoh.Session, key: str, put: dict[str, object], *arguments: str) -> str:
     """Return what `echo` prints, and complains of, when somebody says something."""
     echo = rig.join("echo", *arguments)
-    with stranger.declare_publisher(key) as publisher:
+    patient = zenoh.CongestionControl.BLOCK  # else what does not leave within a millisecond is dropped
+    with stranger.declare_publisher(key, congestion_control=patient) as publisher:
         until(lambda: publisher.matching_status.matching, "somebody who listens")
         publisher.put(**put)
         echo.says("hostile")
