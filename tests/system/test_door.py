@@ -14,6 +14,8 @@ from rig import NEUTRAL, Rig, repeating, until
 from zteleop.chaos.spoiler import poison
 from zteleop.messages import Twist
 
+LISTENS_AND_TAKES_NOBODY = """import socket, sys
+if 'door' in sys.orig_argv: deaf = socket.create_server(('127.0.0.1', 0))"""
 NEVER_OPENS = "import sys\nif 'door' in sys.orig_argv: raise SystemExit('no door')"
 
 
@@ -97,6 +99,20 @@ def test_a_robot_whose_door_never_opens_again_rests_and_is_stopped_without_one(
     robot.process.says("the door is open again")
     release = robot.rig.result("stop", "--release", "--all", *robot.rig.bus_options())
     assert release.returncode == 0, release.stderr
+
+
+def test_a_door_that_takes_nobody_in_any_more_is_followed_by_one_that_does(
+    robot: Robot, tmp_path: Path
+) -> None:
+    """Its place to connect to is stuck, and nothing else is: whoever is in already drives on until then."""
+    (tmp_path / "sitecustomize.py").write_text(LISTENS_AND_TAKES_NOBODY)
+    killed(robot)
+    robot.process.says("the door is open again")
+    until(robot.drives_on, "whoever drove drives on")
+    (tmp_path / "sitecustomize.py").unlink()
+    robot.process.says("door: error: it takes nobody in who connects; this door ends")
+    until(lambda: robot.process.text.count("the door is open again") == 2, "another door")
+    until(robot.drives_on, "whoever drove drives on")
 
 
 def test_a_door_that_cannot_open_ends_the_robot_in_its_own_words(rig: Rig) -> None:

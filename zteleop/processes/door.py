@@ -4,11 +4,12 @@ import os
 import signal
 import socket
 import sys
-from contextlib import suppress
+from contextlib import closing, suppress
 from typing import NoReturn
 
 import msgspec
 
+from zteleop.bus import clock
 from zteleop.bus.door.host import Host
 from zteleop.bus.loop import Loop
 from zteleop.bus.settings import BusSettings
@@ -16,6 +17,7 @@ from zteleop.bus.zenoh_session import ZenohSession, open_zenoh
 from zteleop.errors import ConfigError, DeviceError
 from zteleop.machine import limits, realtime, signals, stderr
 from zteleop.machine.door import ALIVE, ALIVE_EVERY
+from zteleop.machine.newcomer import LOOK_EVERY, Newcomer, own_listeners
 from zteleop.processes import PROGRAMS
 
 PROGRAM = PROGRAMS["door"]
@@ -45,25 +47,31 @@ def run(listener: int, link: int) -> int:
     limits.allow_files(FILES)
     with realtime.lent(PROGRAM.priority):
         session = ZenohSession(open_zenoh(orders.bus, settle=orders.settle, door=True))
-    with place, watchdog, session:
+    with place, watchdog, session, closing(Newcomer(own_listeners())) as newcomer:
         realtime.ask_for(PROGRAM.priority, PROGRAM.oom_score)
         loop = Loop(lambda: None)
         Host(session, place, loop, stderr.say)
         loop.watch(watchdog.fileno(), loop.stop)  # it says nothing, so this is its end
         loop.every(ALIVE_EVERY, lambda: _say_alive(watchdog))
         loop.every(PROVE_EVERY, session.prove)
+        loop.every(LOOK_EVERY, lambda: _must_let_in(newcomer))
         try:
             loop.run()
         except Exception:
             raise
         except BaseException as error:  # zenoh's panic is no Exception, and what it broke cannot be closed
-            _end_broken(error)
+            _end_broken(f"zenoh broke ({str(error) or type(error).__name__})")
     stderr.flush()
     return 0
 
 
-def _end_broken(error: BaseException) -> NoReturn:
-    stderr.say(f"door: error: zenoh broke ({str(error) or type(error).__name__}); this door ends")
+def _must_let_in(newcomer: Newcomer) -> None:
+    if not newcomer.is_let_in(clock.now()):
+        _end_broken("it takes nobody in who connects")
+
+
+def _end_broken(why: str) -> NoReturn:
+    stderr.say(f"door: error: {why}; this door ends")
     stderr.flush()
     os._exit(BROKEN)
 
