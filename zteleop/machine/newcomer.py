@@ -6,7 +6,7 @@ What listens may be stuck while all who are in already are served, and nothing i
 import os
 import socket
 import stat
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable
 from contextlib import suppress
 from itertools import cycle
 from typing import Any, NamedTuple
@@ -27,27 +27,31 @@ class Listener(NamedTuple):
 
 
 class Newcomer:
-    """Connects to each listener in turn; to be turned away is an answer."""
+    """Connects to each listener in turn; to be turned away is an answer.
 
-    def __init__(self, listeners: Sequence[Listener]) -> None:
+    A stranger can fill a listener's queue. So whoever does not get as far as being connected learns nothing.
+    """
+
+    def __init__(self, listeners: Iterable[Listener]) -> None:
         self._listeners = cycle(listeners)
-        self._none = not listeners
         self._end: socket.socket | None = None
         self._due = float("-inf")
         self._looks = 0
-        self._said = False
+        self._is_connected = False
 
     def is_let_in(self, now: float) -> bool:
         """Say whether newcomers are, as far as is known; to be asked every LOOK_EVERY s."""
         if self._end is None:
-            if now >= self._due and not self._none:
+            if now >= self._due and (listener := next(self._listeners, None)):
                 self._due = now + EVERY
-                self._knock(next(self._listeners))
+                self._knock(listener)
             return True
         self._looks += 1
-        if not self._is_answered():
-            return self._looks < LOOKS
-        self.close()
+        if self._is_answered():
+            self.close()
+        elif self._looks == LOOKS:
+            self.close()
+            return not self._is_connected
         return True
 
     def close(self) -> None:
@@ -56,22 +60,22 @@ class Newcomer:
         self._end = None
 
     def _knock(self, listener: Listener) -> None:
-        self._end, self._looks, self._said = socket.socket(listener.family, socket.SOCK_STREAM), 0, False
-        self._end.setblocking(False)
+        self._looks, self._is_connected = 0, False
         try:
-            # From its own address: where the machine has lost that, it is no use to knock.
-            self._end.bind((listener.address[0], 0, *listener.address[2:]))
+            self._end = socket.socket(listener.family, socket.SOCK_STREAM)
+            self._end.setblocking(False)
             self._end.connect(listener.address)
         except BlockingIOError:
             return
-        except OSError:
+        except OSError:  # no more files, or an address that is gone: none of the listener's fault
             self.close()
 
     def _is_answered(self) -> bool:
         assert self._end
         try:
-            if not self._said:
-                self._said = self._end.send(NO_MESSAGE) > 0
+            if not self._is_connected:
+                self._end.send(NO_MESSAGE)
+                self._is_connected = True
             self._end.recv(64)
         except BlockingIOError:
             return False
@@ -82,10 +86,7 @@ class Newcomer:
 
 def own_listeners() -> list[Listener]:
     """Return what this process listens at on the network, by TCP."""
-    return list(_listeners())
-
-
-def _listeners() -> Iterator[Listener]:
+    listeners = []
     for number in map(int, os.listdir("/dev/fd")):
         with suppress(OSError):  # it may be closed meanwhile
             if not stat.S_ISSOCK(os.fstat(number).st_mode):
@@ -93,4 +94,5 @@ def _listeners() -> Iterator[Listener]:
             with socket.socket(fileno=os.dup(number)) as found:
                 on_network = found.family in (socket.AF_INET, socket.AF_INET6)
                 if on_network and found.getsockopt(socket.SOL_SOCKET, socket.SO_ACCEPTCONN):
-                    yield Listener(found.family, found.getsockname())
+                    listeners.append(Listener(found.family, found.getsockname()))
+    return listeners
