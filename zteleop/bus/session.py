@@ -87,10 +87,13 @@ class Session(Protocol):
     def __exit__(self, *exc: object) -> None: ...
 
 
-def open_session(settings: BusSettings, *, settle: bool = False, door: bool = False) -> Session:
+def open_session(
+    settings: BusSettings, *, settle: bool = False, door: bool = False, patient: bool = False
+) -> Session:
     """Join the bus; with `settle`, first wait (at most 1 s) until everybody is found.
 
-    With `door`, others join through this session.
+    With `door`, others join through this session. What is said waits for a place on a full link for a
+    millisecond, then it is lost; with `patient`, for 5 s: for what is said once, and is no command.
 
     Raises ConfigError for an endpoint that is none, BusError when there is no router to a client.
     """
@@ -100,4 +103,4 @@ def open_session(settings: BusSettings, *, settle: bool = False, door: bool = Fa
         return Remote(settings.connect[0].removeprefix(BEHIND))
     from zteleop.bus.zenoh_session import ZenohSession, open_zenoh  # not what reads settings needs it
 
-    return ZenohSession(open_zenoh(settings, settle=settle, door=door))
+    return ZenohSession(open_zenoh(settings, settle=settle, door=door, patient=patient))

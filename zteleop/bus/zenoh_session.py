@@ -31,6 +31,8 @@ _POOLS = re.compile(rf"\({_POOL}(,{_POOL})*\)")
 _PATIENCE_US = 100_000
 """for who passes messages on: a client that takes none for so long is let go, before it holds up the commands
 of others; zenoh's own patience is 5 s"""
+_SAYS_FOR_US = 5_000_000
+"""for who says something once: how long that waits for a place on a full link; else it is a millisecond"""
 _SPEAKS_WITHIN_MS, _UNSPOKEN = 1000, 300
 """for the same: a connection that says nothing for so long is let go, and so many may be there at once; of
 zenoh's own there are 100, for 10 s, and whoever comes then waits for as long"""
@@ -189,14 +191,16 @@ def to_sample(sample: zenoh.Sample) -> Sample:
     )
 
 
-def open_zenoh(settings: BusSettings, *, settle: bool = False, door: bool = False) -> zenoh.Session:
+def open_zenoh(
+    settings: BusSettings, *, settle: bool = False, door: bool = False, patient: bool = False
+) -> zenoh.Session:
     """Join the bus; with `settle`, first wait (at most 1 s) until everybody is found.
 
-    With `door`, others join through this session.
+    With `door`, others join through this session; with `patient`, what is said waits for a full link.
 
     Raises ConfigError for an endpoint that is none, BusError when there is no router to a client.
     """
-    config = _configure(settings, settle, door)
+    config = _configure(settings, settle, door, patient)
     give_up = time.monotonic() + settings.patience
     while True:
         try:
@@ -250,7 +254,9 @@ def _await_quiet(session: zenoh.Session) -> None:
         time.sleep(0.005)
 
 
-def _configure(settings: BusSettings, settle: bool, door: bool = False) -> zenoh.Config:
+def _configure(
+    settings: BusSettings, settle: bool, door: bool = False, patient: bool = False
+) -> zenoh.Config:
     for endpoint in (*settings.connect, *settings.listen):
         if not _ENDPOINT.match(endpoint):
             raise ConfigError(
@@ -277,6 +283,9 @@ def _configure(settings: BusSettings, settle: bool, door: bool = False) -> zenoh
         values["transport/unicast/accept_timeout"] = _SPEAKS_WITHIN_MS
         values["transport/unicast/accept_pending"] = _UNSPOKEN
         values["transport/unicast/max_sessions"] = _SESSIONS
+    if patient:
+        for name in ("wait_before_drop", "max_wait_before_drop_fragments"):
+            values[f"transport/link/tx/queue/congestion_control/drop/{name}"] = _SAYS_FOR_US
     if settings.listen:
         values["listen/endpoints"] = settings.listen
     config = zenoh.Config()

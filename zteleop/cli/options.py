@@ -100,9 +100,9 @@ def robot_of(topic: str, settings: Config) -> str | None:
         return settings.robot
 
 
-def join(name: str, settings: Config) -> Node:
-    """Join the bus as a node of the robot meant."""
-    session = open_session(settings.bus, settle=settings.robot is None)
+def join(name: str, settings: Config, patient: bool = False) -> Node:
+    """Join the bus as a node of the robot meant; with `patient`, what is said waits for a full link."""
+    session = open_session(settings.bus, settle=settings.robot is None, patient=patient)
     try:
         return Node(name, find_robot(session, settings), session=session)
     except BaseException:

@@ -1,4 +1,5 @@
 import argparse
+from contextlib import suppress
 from typing import Any
 
 import msgspec
@@ -10,7 +11,7 @@ from zteleop.bus.publisher import Publisher
 from zteleop.bus.topics import topic_of
 from zteleop.cli import options
 from zteleop.control.resume import Resume
-from zteleop.errors import BusError, MessageError
+from zteleop.errors import BusError, ConfigError, MessageError
 from zteleop.interfaces.values import fill
 from zteleop.messages import DriveStatus, Message, message_type
 
@@ -40,7 +41,9 @@ def run(arguments: argparse.Namespace) -> None:
     message = fill(kind, _yaml(arguments.values))
     times = 1 if arguments.once else arguments.times
     robot = options.robot_of(arguments.topic, settings)
-    with options.join("pub", msgspec.structs.replace(settings, robot=robot)) as node:
+    # A late command is worse than none; whatever else is said so many times is to be heard so often.
+    patient = times is not None and not _is_command(arguments.topic, robot)
+    with options.join("pub", msgspec.structs.replace(settings, robot=robot), patient) as node:
         name = resolve(arguments.topic, node.robot)
         publisher = node.publisher(f"/{name.robot}/{name.path}", kind, wait=False)
         _wait(node, publisher, topic_of(name.path).command)
@@ -78,6 +81,12 @@ def _say(
     finally:
         if said != times:
             publisher.let_go()
+
+
+def _is_command(topic: str, robot: str | None) -> bool:
+    with suppress(ConfigError):
+        return topic_of(resolve(topic, robot).path).command
+    return topic_of(topic).command  # of whichever robot there is
 
 
 def _wait(node: Node, publisher: Publisher[Message], command: bool) -> None:

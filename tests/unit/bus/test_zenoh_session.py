@@ -65,6 +65,12 @@ def test_what_section_4_decides_is_configured() -> None:
     assert get("scouting/delay") == 0
 
 
+@pytest.mark.parametrize(("patient", "waits_us"), [(False, 1000), (True, 5_000_000)])
+def test_only_who_is_patient_waits_for_a_full_link(patient: bool, waits_us: int) -> None:
+    config = module._configure(BusSettings(), False, patient=patient)
+    assert value(config, "transport/link/tx/queue/congestion_control/drop/wait_before_drop") == waits_us
+
+
 def test_named_endpoints_are_the_only_ones() -> None:
     get = configure(connect=["tcp/pi.local:7447"], listen=["tcp/127.0.0.1:0"])
     assert get("connect/endpoints") == ["tcp/pi.local:7447"]

@@ -101,7 +101,7 @@ def test_the_robot_of_a_topic_is_the_one_it_says(topic: str, selected: str | Non
 
 def test_a_robot_that_cannot_be_chosen_leaves_the_bus(monkeypatch: pytest.MonkeyPatch) -> None:
     bus = session("abe", "bob")
-    monkeypatch.setattr(options, "open_session", lambda settings, settle: bus)
+    monkeypatch.setattr(options, "open_session", lambda settings, settle, patient: bus)
     with pytest.raises(ConfigError, match="2 robots are on the bus"):
         options.join("keyboard", Config())
     assert bus.closed
@@ -110,7 +110,8 @@ def test_a_robot_that_cannot_be_chosen_leaves_the_bus(monkeypatch: pytest.Monkey
 def test_only_without_a_name_it_settles_before_it_looks(monkeypatch: pytest.MonkeyPatch) -> None:
     settles: list[bool] = []
 
-    def open_session(settings: BusSettings, settle: bool) -> Session:
+    def open_session(settings: BusSettings, settle: bool, patient: bool) -> Session:
+        assert not patient
         settles.append(settle)
         return session("abe")
 

@@ -41,6 +41,22 @@ def say(
     return said.messages
 
 
+@pytest.mark.parametrize(
+    ("topic", "robot", "command"),
+    [
+        ("cmd_vel", None, True),
+        ("cmd_vel/joystick", "abe", True),
+        ("abe/pwm", None, True),
+        ("/abe/cmd_vel_stamped", "bob", True),
+        ("odom", None, False),
+        ("abe/photo", None, False),
+        ("No Name/photo", None, False),
+    ],
+)
+def test_only_what_is_no_command_may_wait_for_its_way(topic: str, robot: str | None, command: bool) -> None:
+    assert pub._is_command(topic, robot) is command
+
+
 @pytest.mark.parametrize("times", [1, 3])
 def test_it_says_it_so_many_times(times: int, capsys: pytest.CaptureFixture[str]) -> None:
     assert say(FORWARD, times, 10) == [FORWARD] * times
