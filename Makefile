@@ -33,8 +33,8 @@ bench: .venv/installed-dev
 	@for name in key_to_wheel publish_to_handler control_and_codec shell idle_cost flood; do \
 		$(BIN)/python benchmarks/$$name.py || exit 1; done
 
-# About three hours: each fault 50 times, every failure in every state, bad links, half an hour of floods, an hour
-# of driving under load.
+# Above three hours: each fault 50 times, every failure in every state, bad links, half an hour each of floods and of
+# all that strangers do, an hour of driving under load.
 soak: .venv/installed-dev
 	$(BIN)/zteleop chaos --times 50
 	ZTELEOP_STEPS=2_000_000 $(BIN)/pytest --timeout 0 tests/unit/control/test_states.py
@@ -42,6 +42,7 @@ soak: .venv/installed-dev
 	cd tests && ../$(BIN)/python -m faults.matrix
 	cd tests && ../$(BIN)/python -m faults.link.table
 	cd tests && ../$(BIN)/python -m faults.endurance
+	cd tests && ../$(BIN)/python -m faults.siege
 	$(BIN)/python benchmarks/under_load.py --seconds 600
 
 fuzz: .venv/installed-dev

@@ -47,6 +47,11 @@ class Process:
         return self._process.poll() is not None
 
     @property
+    def code(self) -> int | None:
+        """Its exit code; None while it runs."""
+        return self._process.poll()
+
+    @property
     def words(self) -> str:
         """The last line that it said."""
         lines = self._log.read_text(errors="replace").strip().splitlines()

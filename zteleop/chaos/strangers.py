@@ -7,6 +7,7 @@ from zteleop.chaos.bench import START, Bench, endpoint
 from zteleop.chaos.fault import Act, Fault
 from zteleop.chaos.load import count_alarms
 from zteleop.chaos.people import press
+from zteleop.chaos.process import Process
 from zteleop.chaos.stranger import ATTACKS
 from zteleop.errors import BusError
 
@@ -14,10 +15,18 @@ POISON = "a declaration that is none"
 """Breaks zenoh: the robot rests until another door is open."""
 
 
+def begin(attack: str, bench: Bench, where: str = "", name: str = "stranger") -> Process:
+    """Start a stranger, at the bench's own door or another; it says "strikes" when it does.
+
+    It ends with the bench.
+    """
+    where = where or endpoint(bench.address)
+    return bench.run(name, [sys.executable, "-m", "zteleop.chaos.stranger", attack, where, bench.robot])
+
+
 def strike(attack: str, bench: Bench) -> None:
     """Begin an attack; it ends with the bench."""
-    words = [sys.executable, "-m", "zteleop.chaos.stranger", attack, endpoint(bench.address), bench.robot]
-    process = bench.run("stranger", words)
+    process = begin(attack, bench)
     if bench.until(lambda: process.words == "strikes", START) is None:
         raise BusError(f"the stranger does not strike: {process.words}")
 

@@ -8,6 +8,7 @@ from contextlib import suppress
 from typing import Any
 
 import pytest
+from hypothesis import settings
 from unit.interfaces.cdr.values import anything, halves, kinds
 
 from zteleop.errors import MessageError
@@ -21,6 +22,8 @@ LIES = [0xFFFFFFFF, 0x80000000, 0x7FFFFFFF, 0x00FFFFFF]
 ALL = sorted(
     {*kinds(), *halves()} - {struct_of("example_interfaces/msg/WString")}, key=lambda kind: kind.ros_type
 )
+PLACES = settings.default.max_examples // 6
+"""of each message at which a length lies, in either order of bytes"""
 WORTH = 100
 """bytes of Python's for one that came: the smallest message in a list is one"""
 
@@ -47,13 +50,22 @@ def _traced() -> Any:
     tracemalloc.stop()
 
 
-@pytest.mark.usefixtures("_traced")
-def test_a_length_that_lies_takes_no_memory_wherever_it_stands() -> None:
+@pytest.fixture(scope="module")
+def encoded() -> list[tuple[type[Message], bytes]]:
+    """One message of each type: what it takes to make them is not to be counted."""
     dice = random.Random(3)
-    for kind in ALL:
-        data = cdr.encode(anything(kind, dice))
+    return [(kind, cdr.encode(anything(kind, dice))) for kind in ALL if cdr.decoder(kind)]
+
+
+@pytest.mark.usefixtures("_traced")
+def test_a_length_that_lies_takes_no_memory_wherever_it_stands(
+    encoded: list[tuple[type[Message], bytes]],
+) -> None:
+    dice = random.Random(4)
+    for kind, data in encoded:
         for order, header in (("<", HEADER), (">", bytes(4))):
-            for at in dice.sample(range(4, len(data), 4), min(12, len(range(4, len(data), 4)))):
+            places = range(4, len(data), 4)
+            for at in dice.sample(places, min(PLACES, len(places))):
                 lying = header + data[4:at] + struct.pack(f"{order}I", dice.choice(LIES)) + data[at + 4 :]
                 assert takes(lying, kind, 20_000 + WORTH * len(lying)), (kind.ros_type, at)
 
