@@ -1,4 +1,4 @@
-"""What you type. One file per verb, one line below."""
+"""What you type. One file per verb, one line below; what they share begins with an underscore."""
 
 import os
 import sys
@@ -35,7 +35,7 @@ def main(argv: list[str] | None = None) -> int:
     """Run one verb; return 0 done, 1 error, 2 usage, 130 Ctrl-C, 143 SIGTERM."""
     _open_standard_files()
     try:
-        code = _run(sys.argv[1:] if argv is None else argv)
+        code = _dispatch(sys.argv[1:] if argv is None else argv)
         sys.stdout.flush()
         return code
     except KeyboardInterrupt:
@@ -58,7 +58,7 @@ def _open_standard_files() -> None:
             setattr(sys, name, os.fdopen(file, mode, closefd=False))
 
 
-def _run(arguments: list[str]) -> int:
+def _dispatch(arguments: list[str]) -> int:
     if not arguments or arguments[0] in ("-h", "--help"):
         print(USAGE.format(verbs="\n".join(f"  {verb:10} {text}" for verb, text in VERBS.items())), end="")
         return 0
@@ -70,7 +70,7 @@ def _run(arguments: list[str]) -> int:
     if arguments[0] not in VERBS:
         print(f"zteleop: {_unknown(arguments[0])}", file=sys.stderr)
         return 2
-    from zteleop.cli.run import run_verb
+    from zteleop.cli._run import run_verb
 
     return run_verb(arguments[0], VERBS[arguments[0]], arguments[1:])
 

@@ -3,7 +3,7 @@ import argparse
 import msgspec
 
 from zteleop import config
-from zteleop.cli import options
+from zteleop.cli import _options
 from zteleop.config import Config
 from zteleop.control.drive import DriveSettings
 from zteleop.drivers import DRIVERS, open_driver
@@ -12,7 +12,7 @@ from zteleop.processes import watchdog
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    options.add(parser)
+    _options.add(parser)
     parser.add_argument("--driver", choices=DRIVERS, help="the chip to write to (default: simulated)")
     parser.add_argument(
         "--pulse-duty",
@@ -28,12 +28,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         choices=["acts", "all", "off"],
         help="what to keep of the commands on disk: who acted (default), every one, nothing",
     )
-    options.add_parent(parser)
+    _options.add_parent(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Watch over a robot until told to end."""
-    settings = options.load(arguments)
+    settings = _options.load(arguments)
     robot = settings.robot or config.own_name()
     name = arguments.driver or settings.driver
     chip = settings.driver_settings(name, robot)
@@ -45,7 +45,7 @@ def run(arguments: argparse.Namespace) -> int:
         drive=_tuned(settings, arguments, hand.tick_us),
         journal=arguments.journal or settings.journal,
     )
-    return watchdog.run(tuned, hand, lambda node: options.end_with_parent(arguments, node))
+    return watchdog.run(tuned, hand, lambda node: _options.end_with_parent(arguments, node))
 
 
 def _tuned(settings: Config, arguments: argparse.Namespace, tick_us: float) -> DriveSettings:

@@ -9,7 +9,7 @@ from zteleop.chaos.certificate import HEAD, Verdict, certify, verdict
 from zteleop.chaos.fault import Fault
 from zteleop.chaos.trial import Outcome, attempt
 from zteleop.chaos.waiting import await_quiet
-from zteleop.cli import options
+from zteleop.cli import _options
 from zteleop.cli.neutral import bring_to_rest
 from zteleop.config import Config
 from zteleop.errors import ConfigError, ZteleopError
@@ -24,8 +24,10 @@ QUIET_WITHIN = 10.0
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    options.add_config(parser)
-    parser.add_argument("--times", metavar="N", type=options.count, default=3, help="each fault (default: 3)")
+    _options.add_config(parser)
+    parser.add_argument(
+        "--times", metavar="N", type=_options.count, default=3, help="each fault (default: 3)"
+    )
     parser.add_argument("--only", metavar="TEXT", default="", help="the faults whose kind or name holds this")
     parser.add_argument("--list", action="store_true", help="say what would be done, and do nothing")
     parser.add_argument("--json", action="store_true", help="print the certificate as JSON")

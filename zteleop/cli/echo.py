@@ -11,14 +11,14 @@ from zteleop.bus.escape import printable
 from zteleop.bus.names import resolve
 from zteleop.bus.session import Ring, Sample, open_session
 from zteleop.bus.topics import topic_of
-from zteleop.cli import options
+from zteleop.cli import _options
 from zteleop.errors import BusError, MessageError
 
 DEPTH = 100
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    options.add(parser)
+    _options.add(parser)
     parser.add_argument("topic", help="such as archangel/odom, or odom with --robot")
     parser.add_argument("--once", action="store_true", help="print one message and end")
     parser.add_argument("--json", action="store_true", help="one message a line, as JSON")
@@ -26,10 +26,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> None:
-    settings = options.load(arguments)
-    robot = options.robot_of(arguments.topic, settings)
+    settings = _options.load(arguments)
+    robot = _options.robot_of(arguments.topic, settings)
     with open_session(settings.bus, settle=robot is None) as session:
-        name = resolve(arguments.topic, robot or options.find_robot(session, settings))
+        name = resolve(arguments.topic, robot or _options.find_robot(session, settings))
         command = topic_of(name.path).command and "/" not in name.path
         key = f"{name.key}/**" if command else name.key
         for sample in _samples(session.subscribe(key, DEPTH), arguments.timeout, name.key):

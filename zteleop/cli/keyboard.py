@@ -5,7 +5,7 @@ from collections.abc import Callable
 from zteleop.bus import clock
 from zteleop.bus.lane.call import Call
 from zteleop.bus.node import Node
-from zteleop.cli import options
+from zteleop.cli import _options
 from zteleop.config import Config
 from zteleop.control.report import to_vehicle
 from zteleop.drivers import tick_us
@@ -22,7 +22,7 @@ HEARD_WITHIN = 0.6
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    options.add(parser)
+    _options.add(parser)
     parser.add_argument(
         "--drive",
         choices=["step", "hold"],
@@ -32,8 +32,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> None:
-    settings = options.load(arguments)
-    with options.join("keyboard", settings) as node:
+    settings = _options.load(arguments)
+    with _options.join("keyboard", settings) as node:
         drive_with_keys(node, settings, arguments.drive)
 
 

@@ -4,17 +4,17 @@ from zteleop.bus import presence
 from zteleop.bus.presence import Endpoint
 from zteleop.bus.session import open_session
 from zteleop.bus.topics import topic_of
-from zteleop.cli import options
+from zteleop.cli import _options
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    options.add(parser)
+    _options.add(parser)
     parser.add_argument("-t", "--show-types", action="store_true", help="with the type of each topic")
     parser.add_argument("-v", "--verbose", action="store_true", help="with who publishes and who hears it")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    settings = options.load(arguments)
+    settings = _options.load(arguments)
     with open_session(settings.bus, settle=True) as session:
         endpoints = presence.endpoints(session)
     if settings.robot:

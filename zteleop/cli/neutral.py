@@ -2,7 +2,7 @@ import argparse
 
 from zteleop import config
 from zteleop.bus.names import robot_name
-from zteleop.cli import options
+from zteleop.cli import _options
 from zteleop.config import Config
 from zteleop.control.calibration import Calibration
 from zteleop.drivers import DRIVERS, open_driver
@@ -10,7 +10,7 @@ from zteleop.errors import DeviceError
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    options.add_config(parser)
+    _options.add_config(parser)
     parser.add_argument("--robot", metavar="NAME", help="whose simulated chip (default: this machine's own)")
     parser.add_argument("--driver", choices=DRIVERS, help="the chip to write to (default: simulated)")
 
@@ -32,7 +32,7 @@ def bring_to_rest(settings: Config, name: str, robot: str) -> Calibration:
 
 def run(arguments: argparse.Namespace) -> None:
     """Write neutral first and ask afterwards: it is never wrong."""
-    settings = options.salvaged(arguments)
+    settings = _options.salvaged(arguments)
     robot = robot_name(arguments.robot or settings.robot or config.own_name())
     name = arguments.driver or settings.driver
     chip = settings.driver_settings(name, robot)

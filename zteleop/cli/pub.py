@@ -9,7 +9,7 @@ from zteleop.bus.names import resolve
 from zteleop.bus.node import Node
 from zteleop.bus.publisher import Publisher
 from zteleop.bus.topics import topic_of
-from zteleop.cli import options
+from zteleop.cli import _options
 from zteleop.control.resume import Resume
 from zteleop.errors import BusError, ConfigError, MessageError
 from zteleop.interfaces.values import fill
@@ -21,13 +21,13 @@ SETTLE = 0.1
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    options.add(parser)
+    _options.add(parser)
     parser.add_argument("topic", help="such as archangel/cmd_vel")
     parser.add_argument("type", help="such as geometry_msgs/msg/Twist, or Twist")
     parser.add_argument("values", nargs="?", default="{}", help="YAML: '{linear: {x: 0.2}}'; the rest is 0")
     parser.add_argument("-r", "--rate", metavar="HZ", type=_rate_hz, default=1.0, help="default: 1")
     parser.add_argument("-1", "--once", action="store_true", help="say it once and end")
-    parser.add_argument("-t", "--times", metavar="N", type=options.count, help="say it N times and end")
+    parser.add_argument("-t", "--times", metavar="N", type=_options.count, help="say it N times and end")
     parser.add_argument(
         "--resume",
         action="store_true",
@@ -36,14 +36,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> None:
-    settings = options.load(arguments)
+    settings = _options.load(arguments)
     kind = message_type(arguments.type)
     message = fill(kind, _yaml(arguments.values))
     times = 1 if arguments.once else arguments.times
-    robot = options.robot_of(arguments.topic, settings)
+    robot = _options.robot_of(arguments.topic, settings)
     # A late command is worse than none; whatever else is said so many times is to be heard so often.
     patient = times is not None and not _is_command(arguments.topic, robot)
-    with options.join("pub", msgspec.structs.replace(settings, robot=robot), patient) as node:
+    with _options.join("pub", msgspec.structs.replace(settings, robot=robot), patient) as node:
         name = resolve(arguments.topic, node.robot)
         publisher = node.publisher(f"/{name.robot}/{name.path}", kind, wait=False)
         _wait(node, publisher, topic_of(name.path).command)

@@ -8,7 +8,7 @@ from zteleop.bus import clock, presence
 from zteleop.bus.escape import printable
 from zteleop.bus.lane.call import Call
 from zteleop.bus.node import Node
-from zteleop.cli import options
+from zteleop.cli import _options
 from zteleop.config import Config
 from zteleop.errors import BusError
 from zteleop.messages import DriveStatus
@@ -18,8 +18,8 @@ GLANCE = 0.01
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    options.add(parser)
-    options.add_robot(parser)
+    _options.add(parser)
+    _options.add_robot(parser)
     parser.add_argument(
         "--release", action="store_true", help="end your stop: it may drive again, from neutral"
     )
@@ -28,12 +28,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    settings = options.load_anyhow(arguments)
+    settings = _options.load_anyhow(arguments)
     every = arguments.all and not arguments.release
     settle = every or settings.robot is None
     if arguments.release:
-        with options.join_for_any("stop", settings, settle=settle) as node:
-            robot = options.find_robot(node.session, settings)
+        with _options.join_for_any("stop", settings, settle=settle) as node:
+            robot = _options.find_robot(node.session, settings)
             print(printable(release(node, robot, arguments.all)))
             return 0
     with Call(settings.bus) as lane:
@@ -67,7 +67,7 @@ class Stops:
     def join(self, settings: Config, settle: bool) -> Node:
         """Join the bus, and say meanwhile on the lane what is asked for; raises BusError as that does."""
         with ThreadPoolExecutor(1) as joining:
-            node = joining.submit(options.join_for_any, "stop", settings, settle)
+            node = joining.submit(_options.join_for_any, "stop", settings, settle)
             while not node.done():
                 self.heed()
                 time.sleep(GLANCE)

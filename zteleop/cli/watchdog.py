@@ -3,7 +3,7 @@ import argparse
 from zteleop.bus import clock
 from zteleop.bus.escape import printable
 from zteleop.bus.subscription import Received
-from zteleop.cli import options
+from zteleop.cli import _options
 from zteleop.cli.why import state_of
 from zteleop.errors import BusError
 from zteleop.messages import WatchdogStatus
@@ -13,14 +13,14 @@ HEARD_WITHIN = 2.0
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    options.add(parser)
-    options.add_robot(parser)
+    _options.add(parser)
+    _options.add_robot(parser)
     parser.add_argument("--once", action="store_true", help="print one line and end")
 
 
 def run(arguments: argparse.Namespace) -> None:
     """Print a line a second, and one at each change."""
-    with options.join("watch", options.load_anyhow(arguments)) as node:
+    with _options.join("watch", _options.load_anyhow(arguments)) as node:
         shown: tuple[object, ...] = ()
         heard_at = shown_at = clock.now()
 

@@ -2,7 +2,7 @@ import argparse
 
 from zteleop.bus.escape import printable
 from zteleop.bus.node import Node
-from zteleop.cli import options
+from zteleop.cli import _options
 from zteleop.errors import BusError
 from zteleop.messages import DriveStatus, WatchdogStatus, Why
 
@@ -10,12 +10,12 @@ HEARD_WITHIN = 2.0
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    options.add(parser)
-    options.add_robot(parser)
+    _options.add(parser)
+    _options.add_robot(parser)
 
 
 def run(arguments: argparse.Namespace) -> None:
-    with options.join("why", options.load_anyhow(arguments)) as node:
+    with _options.join("why", _options.load_anyhow(arguments)) as node:
         print(explain(node))
 
 

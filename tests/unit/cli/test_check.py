@@ -2,7 +2,7 @@ from pathlib import Path
 
 import pytest
 
-from zteleop.cli.run import run_verb
+from zteleop.cli._run import run_verb
 
 ROOT = Path(__file__).parents[3]
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from zteleop.cli.run import run_verb
+from zteleop.cli._run import run_verb
 from zteleop.drivers import open_driver
 from zteleop.drivers.registers import read_duty_ticks
 from zteleop.drivers.simulated import open_registers

@@ -9,7 +9,7 @@ from unit.bus.fakes import Session
 from zteleop import config
 from zteleop.bus import presence
 from zteleop.bus.settings import BusSettings
-from zteleop.cli import options
+from zteleop.cli import _options
 from zteleop.config import Config
 from zteleop.errors import ConfigError
 
@@ -24,7 +24,7 @@ def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def parse(*arguments: str) -> argparse.Namespace:
     parser = argparse.ArgumentParser()
-    options.add(parser)
+    _options.add(parser)
     return parser.parse_args(arguments)
 
 
@@ -33,7 +33,7 @@ def session(*robots: str) -> Any:
 
 
 def test_nothing_typed_changes_nothing() -> None:
-    assert options.load(parse()) == Config()
+    assert _options.load(parse()) == Config()
 
 
 @pytest.mark.parametrize(
@@ -48,12 +48,12 @@ def test_nothing_typed_changes_nothing() -> None:
 )
 def test_what_is_typed_stands_above_the_file(home: Path, arguments: list[str], bus: BusSettings) -> None:
     (home / "config.toml").write_text("robot = 'archangel'\n")
-    assert options.load(parse(*arguments)) == Config(robot="archangel", bus=bus)
+    assert _options.load(parse(*arguments)) == Config(robot="archangel", bus=bus)
 
 
 def test_what_is_not_typed_stays_as_in_the_file(home: Path) -> None:
     (home / "x.toml").write_text("robot = 'abe'\n[bus]\nmulticast = false\nconnect = ['tcp/a:1']\n")
-    settings = options.load(parse("--config", str(home / "x.toml"), "--robot", "zoe"))
+    settings = _options.load(parse("--config", str(home / "x.toml"), "--robot", "zoe"))
     assert settings == Config(robot="zoe", bus=BusSettings(connect=["tcp/a:1"], multicast=False))
 
 
@@ -68,20 +68,20 @@ def test_what_cannot_be_obeyed_is_a_usage_error(
 
 
 def test_the_robot_meant_is_the_one_named() -> None:
-    assert options.find_robot(session("abe", "bob"), Config(robot="zoe")) == "zoe"
+    assert _options.find_robot(session("abe", "bob"), Config(robot="zoe")) == "zoe"
 
 
 def test_else_it_is_the_only_one_there() -> None:
-    assert options.find_robot(session("abe"), Config()) == "abe"
+    assert _options.find_robot(session("abe"), Config()) == "abe"
 
 
 def test_else_it_is_this_machines_own() -> None:
-    assert options.find_robot(session(), Config()) == config.own_name()
+    assert _options.find_robot(session(), Config()) == config.own_name()
 
 
 def test_of_several_none_is_chosen() -> None:
     with pytest.raises(ConfigError, match=r"^2 robots are on the bus: abe, bob; say --robot NAME$"):
-        options.find_robot(session("bob", "abe"), Config())
+        _options.find_robot(session("bob", "abe"), Config())
 
 
 @pytest.mark.parametrize(
@@ -96,14 +96,14 @@ def test_of_several_none_is_chosen() -> None:
     ],
 )
 def test_the_robot_of_a_topic_is_the_one_it_says(topic: str, selected: str | None, robot: str | None) -> None:
-    assert options.robot_of(topic, Config(robot=selected)) == robot
+    assert _options.robot_of(topic, Config(robot=selected)) == robot
 
 
 def test_a_robot_that_cannot_be_chosen_leaves_the_bus(monkeypatch: pytest.MonkeyPatch) -> None:
     bus = session("abe", "bob")
-    monkeypatch.setattr(options, "open_session", lambda settings, settle, patient: bus)
+    monkeypatch.setattr(_options, "open_session", lambda settings, settle, patient: bus)
     with pytest.raises(ConfigError, match="2 robots are on the bus"):
-        options.join("keyboard", Config())
+        _options.join("keyboard", Config())
     assert bus.closed
 
 
@@ -115,9 +115,9 @@ def test_only_without_a_name_it_settles_before_it_looks(monkeypatch: pytest.Monk
         settles.append(settle)
         return session("abe")
 
-    monkeypatch.setattr(options, "open_session", open_session)
+    monkeypatch.setattr(_options, "open_session", open_session)
     for robot in (None, "abe"):
-        with options.join("keyboard", Config(robot=robot)) as node:
+        with _options.join("keyboard", Config(robot=robot)) as node:
             assert node.robot == "abe"
     assert settles == [True, False]
 
@@ -126,6 +126,6 @@ def test_only_without_a_name_it_settles_before_it_looks(monkeypatch: pytest.Monk
 def test_a_child_ends_when_its_parent_does(typed: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     watched: dict[int, object] = {}
     node = SimpleNamespace(watch=watched.__setitem__, stop="stop")
-    monkeypatch.setattr(options.sys, "stdin", SimpleNamespace(fileno=lambda: 5))
-    options.end_with_parent(argparse.Namespace(with_parent=typed), node)
+    monkeypatch.setattr(_options.sys, "stdin", SimpleNamespace(fileno=lambda: 5))
+    _options.end_with_parent(argparse.Namespace(with_parent=typed), node)
     assert watched == ({5: "stop"} if typed else {})

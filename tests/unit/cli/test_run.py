@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import pytest
 
 from zteleop import cli
-from zteleop.cli import run
+from zteleop.cli import _run
 from zteleop.errors import BusError, ConfigError, DeviceError, MessageError
 from zteleop.machine import signals
 
@@ -31,7 +31,7 @@ def verb(monkeypatch: pytest.MonkeyPatch) -> Verb:
             parser.add_argument("--speed", type=float)
 
         module = SimpleNamespace(add_arguments=add_arguments, run=act)
-        monkeypatch.setattr(run, "import_module", {"zteleop.cli.fly": module}.__getitem__)
+        monkeypatch.setattr(_run, "import_module", {"zteleop.cli.fly": module}.__getitem__)
         monkeypatch.setattr(signals, "unwind", lambda: lambda: undone.append("undone"))
         monkeypatch.setitem(cli.VERBS, "fly", "fly a kite")
         try:
@@ -99,7 +99,7 @@ def test_a_reader_that_left_is_no_error_to_talk_about(
 
 def test_a_wrong_argument_is_a_usage_error(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as ending:
-        run.run_verb("check", "check a config file", ["a", "b"])
+        _run.run_verb("check", "check a config file", ["a", "b"])
     assert ending.value.code == 2
     assert "unrecognized arguments: b" in capsys.readouterr().err
 
@@ -108,7 +108,7 @@ def test_a_verb_that_is_there_runs(capsys: pytest.CaptureFixture[str], tmp_path:
     path = os.path.join(tmp_path, "config.toml")
     with open(path, "w") as file:
         file.write("speed = 1\n")
-    assert run.run_verb("check", "check a config file", [path]) == 1
+    assert _run.run_verb("check", "check a config file", [path]) == 1
     assert capsys.readouterr().err == f"zteleop check: {path}: Object contains unknown field `speed`\n"
 
 

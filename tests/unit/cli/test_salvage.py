@@ -3,7 +3,7 @@ from pathlib import Path
 import pytest
 
 from zteleop.bus.settings import BusSettings
-from zteleop.cli.salvage import salvage
+from zteleop.cli._salvage import salvage
 from zteleop.config import Config
 from zteleop.control.stick import Speeds
 

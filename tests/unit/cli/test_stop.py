@@ -9,9 +9,9 @@ from unit.nodes.fakes import Inbox, Node, Said
 from zteleop import config
 from zteleop.bus import presence
 from zteleop.bus.lane.wire import Answered
-from zteleop.cli import options
+from zteleop.cli import _options
 from zteleop.cli import stop as verb
-from zteleop.cli.run import run_verb
+from zteleop.cli._run import run_verb
 from zteleop.control.stop import Latch
 from zteleop.errors import BusError
 from zteleop.messages import DriveStatus, Stop
@@ -116,7 +116,7 @@ def typed(
     monkeypatch.setattr(config, "own_name", lambda: "archangel")
 
     def type_(latch: Latch | None, *arguments: str) -> tuple[int, str, str]:
-        monkeypatch.setattr(options, "join_for_any", lambda name, settings, settle: Robot(clock, latch))
+        monkeypatch.setattr(_options, "join_for_any", lambda name, settings, settle: Robot(clock, latch))
         monkeypatch.setattr(presence, "robots", lambda session: ["archangel"] if latch else heard)
         code = run_verb("stop", "stop a robot", list(arguments))
         return code, *capsys.readouterr()
@@ -275,7 +275,7 @@ def test_without_a_bus_a_stop_goes_out_all_the_same(
 
     monkeypatch.setattr(verb, "Call", lane)
     monkeypatch.setattr(verb.time, "sleep", clock.pass_by)
-    monkeypatch.setattr(options, "join_for_any", fail)
+    monkeypatch.setattr(_options, "join_for_any", fail)
     assert run_verb("stop", "stop a robot", ["archangel"]) == code
     out, error = capsys.readouterr()
     assert error.endswith(words)

@@ -19,8 +19,8 @@ Watch = Callable[..., list[str]]
 @pytest.fixture
 def node(monkeypatch: pytest.MonkeyPatch) -> Node:
     node = Node()
-    monkeypatch.setattr(watchdog.options, "load_anyhow", lambda arguments: None)
-    monkeypatch.setattr(watchdog.options, "join", lambda name, settings: nullcontext(node))
+    monkeypatch.setattr(watchdog._options, "load_anyhow", lambda arguments: None)
+    monkeypatch.setattr(watchdog._options, "join", lambda name, settings: nullcontext(node))
     return node
 
 

@@ -91,9 +91,9 @@ def test_what_a_watchdog_sees_in_a_line(status: WatchdogStatus, words: str) -> N
 
 def test_the_verb_prints_it_escaped(monkeypatch: pytest.MonkeyPatch, capsys: Any) -> None:
     evil = Why([Layer("operator", "\x1b[2Jkeyboard")])
-    monkeypatch.setattr(why.options, "load_anyhow", lambda arguments: None)
+    monkeypatch.setattr(why._options, "load_anyhow", lambda arguments: None)
     monkeypatch.setattr(
-        why.options, "join", lambda name, settings: nullcontext(node(drive_status=STATUS, why=evil))
+        why._options, "join", lambda name, settings: nullcontext(node(drive_status=STATUS, why=evil))
     )
     why.run(None)
     out = capsys.readouterr().out

@@ -12,7 +12,7 @@ from zteleop.bus.escape import printable
 from zteleop.bus.names import resolve, robot_name
 from zteleop.bus.node import Node
 from zteleop.bus.session import Session, open_session
-from zteleop.cli.salvage import salvage
+from zteleop.cli._salvage import salvage
 from zteleop.config import Config
 from zteleop.errors import ConfigError
 
