@@ -21,6 +21,7 @@ lint: .venv/installed-dev
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/mypy
+	$(BIN)/mypy examples/*.py
 
 format: .venv/installed-dev
 	$(BIN)/ruff check --fix

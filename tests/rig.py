@@ -140,12 +140,12 @@ class Rig:
 
     def run(self, *arguments: str) -> Process:
         """Run a verb as it stands."""
-        return self._keep(Process([*ZTELEOP, *arguments], self.environment, self.folder))
+        return self.keep(Process([*ZTELEOP, *arguments], self.environment, self.folder))
 
     def program(self, text: str, *arguments: str) -> Process:
         """Run somebody's Python program."""
         command = [sys.executable, "-c", text, *arguments]
-        return self._keep(Process(command, self.environment, self.folder))
+        return self.keep(Process(command, self.environment, self.folder))
 
     def result(self, verb: str, *arguments: str) -> "subprocess.CompletedProcess[str]":
         """Run a verb to its end; its output and its errors apart."""
@@ -179,7 +179,7 @@ class Rig:
         surroundings = self.environment | {"TERM": "xterm-256color", "LC_ALL": "C.UTF-8"}
         surroundings |= environment or {}
         command = [*ZTELEOP[1:], *arguments]
-        return self._keep(Terminal(command, surroundings, self.folder, columns, rows))
+        return self.keep(Terminal(command, surroundings, self.folder, columns, rows))
 
     def session(self) -> zenoh.Session:
         """Join the bus without any of zteleop's manners."""
@@ -193,7 +193,8 @@ class Rig:
         found = [(process.process.pid, process.child) for process in self._processes]
         return [pid for pair in found for pid in pair if pid]
 
-    def _keep(self, process: P) -> P:
+    def keep(self, process: P) -> P:
+        """Let a process end with the rig."""
         self._processes.append(process)
         self._stack.callback(process.close)
         return process

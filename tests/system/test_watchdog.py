@@ -168,7 +168,7 @@ def test_a_sender_whose_clock_is_ten_hours_ahead_drives_as_any_other(rig: Rig) -
     bench = Bench(rig, rig.actuator())
     values = f"{{steering_ticks: {FORWARD.steering_ticks}, throttle_ticks: {FORWARD.throttle_ticks}}}"
     publish = ["pub", "pwm/keyboard", "Pwm", values, "-r", "50", *rig.bus_options()]
-    sender = rig._keep(Process([*HOURS_AHEAD, *ZTELEOP, *publish], rig.environment, rig.folder))
+    sender = rig.keep(Process([*HOURS_AHEAD, *ZTELEOP, *publish], rig.environment, rig.folder))
     bench.moves()
     with Watch(rig) as watch:
         status = hear(bench.statuses, lambda status: status.state == "driving", "driving")

@@ -118,7 +118,7 @@ class FarRig(Rig):
     def start(self, namespace: str, command: Sequence[str], environment: Mapping[str, str]) -> Process:
         """Run a command on one of the machines."""
         surroundings = {**environment, "PYTHONPATH": str(TESTS)}
-        return self._keep(Process([*inside(namespace), *command], surroundings, self.folder))
+        return self.keep(Process([*inside(namespace), *command], surroundings, self.folder))
 
 
 class Bench:
