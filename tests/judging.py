@@ -36,9 +36,9 @@ def is_timing(item: pytest.Item) -> bool:
     return item.get_closest_marker("timing") is not None
 
 
-def is_order(item: pytest.Item) -> bool:
-    """Say whether a test has processes, and awaits what they do."""
-    return not is_timing(item) and "unit" not in item.path.parts
+def awaits(item: pytest.Item) -> bool:
+    """Say whether a test has processes, and awaits what they do; a claim of time does before it begins."""
+    return is_timing(item) or "unit" not in item.path.parts
 
 
 @pytest.hookimpl(trylast=True)
@@ -55,7 +55,7 @@ def pytest_runtest_protocol(item: pytest.Item, nextitem: pytest.Item | None) -> 
             item.session._setupstate.teardown_exact(None)
             await_quiet(QUIET_WITHIN)
             item._initrequest()  # type: ignore[attr-defined]
-        with stalls.watched(is_order(item)):
+        with stalls.watched(awaits(item)):
             reports = runtestprotocol(item, nextitem=nextitem, log=False)
         if not any(words_of(report) for report in reports):
             break
@@ -70,7 +70,7 @@ def pytest_runtest_makereport(
     item: pytest.Item, call: pytest.CallInfo[None]
 ) -> Iterator[None]:  # yields the report, returns it
     report = yield
-    report.claims = is_timing(item) or is_order(item)
+    report.claims = awaits(item)
     if call.excinfo and (words := why_not_judged(item, call.excinfo.value)):
         report.outcome, report.longrepr, report.not_judged = "passed", None, words
     elif report.failed and call.when == "call":
@@ -82,7 +82,7 @@ def pytest_runtest_makereport(
 
 def why_not_judged(item: pytest.Item, error: BaseException) -> str:
     """Return what kept a test from a verdict; nothing where it has one."""
-    if isinstance(error, processes.Unmet) and is_order(item) and stalls.longest >= STALL:
+    if isinstance(error, processes.Unmet) and awaits(item) and stalls.longest >= STALL:
         return f"a process waited {stalls.longest:.3f} s for a core: {str(error).splitlines()[0]}"
     return str(error) if isinstance(error, NotJudged) else ""
 

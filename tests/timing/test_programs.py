@@ -84,12 +84,15 @@ def test_what_a_program_says_once_lasts_half_a_second(rig: Rig, text: str) -> No
     Deadline(rig).met(lambda: rig.ticks == NEUTRAL, "neutral", SILENCE + MARGIN, not_before=SILENCE - MARGIN)
 
 
-def test_pub_once_moves_the_robot_until_silence(rig: Rig) -> None:
-    pub = rig.join("pub", "cmd_vel", "Twist", "{linear: {x: 1.0}, angular: {z: 1.0}}", "--once")
+@pytest.mark.parametrize("times", [["--once"], ["-t", "3", "-r", "20"]], ids=["once", "three-times"])
+def test_what_pub_says_last_lasts_half_a_second(rig: Rig, times: list[str]) -> None:
+    pub = rig.join("pub", "cmd_vel", "Twist", "{linear: {x: 1.0}, angular: {z: 1.0}}", *times)
+    pub.says(f"publishing #{times[1] if len(times) > 1 else 1}: Twist(")
+    deadline = Deadline(rig)
     until(lambda: rig.ticks != NEUTRAL, "motion")
-    Deadline(rig).met(lambda: rig.ticks == NEUTRAL, "neutral", SILENCE + MARGIN)
+    deadline.met(lambda: rig.ticks == NEUTRAL, "neutral", SILENCE + MARGIN, not_before=SILENCE - MARGIN)
     assert pub.ends() == 0
-    assert "publishing #1: Twist(" in pub.text
+    assert pub.text.count("publishing #") == (3 if len(times) > 1 else 1)
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])

@@ -10,6 +10,7 @@ from zteleop.bus.node import Node
 from zteleop.bus.publisher import Publisher
 from zteleop.bus.topics import topic_of
 from zteleop.cli import _options
+from zteleop.control.drive import SOURCES
 from zteleop.control.resume import Resume
 from zteleop.errors import BusError, ConfigError, MessageError
 from zteleop.interfaces.values import fill
@@ -18,6 +19,8 @@ from zteleop.messages import DriveStatus, Message, message_type
 HEARD_WITHIN = 3.0
 SETTLE = 0.1
 """s in which others who hear a topic are found; a robot's black box, which hears all, is often the first"""
+OBEYED_FOR = SOURCES["program"].silence
+"""s after a last command in which its robot still obeys, unless whoever said it leaves"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -46,9 +49,10 @@ def run(arguments: argparse.Namespace) -> None:
     with _options.join("pub", msgspec.structs.replace(settings, robot=robot), patient) as node:
         name = resolve(arguments.topic, node.robot)
         publisher = node.publisher(f"/{name.robot}/{name.path}", kind, wait=False)
-        _wait(node, publisher, topic_of(name.path).command)
+        command = topic_of(name.path).command
+        _wait(node, publisher, command)
         resume = Resume(publisher.sender) if arguments.resume and publisher.sender else None
-        _say(node, publisher, message, arguments.rate, times, resume)
+        _say(node, publisher, message, arguments.rate, times, resume, OBEYED_FOR if command else 0.0)
 
 
 def _say(
@@ -57,9 +61,10 @@ def _say(
     message: Message,
     rate: float,
     times: int | None,
-    resume: Resume | None = None,
+    resume: Resume | None,
+    stay: float,
 ) -> None:
-    """Say a message again and again; a repeated motion ends with a neutral."""
+    """Say a message again and again; a repeated motion ends with a neutral, a counted one after `stay` s."""
     said = 0
     if resume:
         node.subscription("drive_status", DriveStatus, lambda received: resume.heed(received.message))
@@ -67,6 +72,8 @@ def _say(
     @node.every(1 / rate)
     def say() -> None:
         nonlocal said
+        if said == times:
+            return
         said += 1
         print(f"publishing #{said}: {message}\n", flush=True)
         if resume and resume.may(node.heard().refusals, clock.now()):
@@ -78,6 +85,8 @@ def _say(
 
     try:
         node.spin()
+        if said == times:
+            node.spin(stay)
     finally:
         if said != times:
             publisher.let_go()

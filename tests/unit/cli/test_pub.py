@@ -26,7 +26,11 @@ def say(
     """Return what is said within so many ticks, ended by Ctrl-C."""
     node, said = node or Node(), said or Said("cmd_vel", "ff")
 
-    def spin() -> None:
+    def spin(seconds: float | None = None) -> None:
+        if seconds is not None:
+            node.stayed = seconds
+            node.timers[0.1]()
+            return
         for _ in range(ticks):
             node.timers[0.1]()
             if node.stopped:
@@ -35,7 +39,7 @@ def say(
 
     node.spin = spin
     try:
-        pub._say(node, said, message, 10.0, times, resume)
+        pub._say(node, said, message, 10.0, times, resume, 0.5)
     except KeyboardInterrupt:
         assert times is None
     return said.messages
@@ -69,10 +73,16 @@ def test_what_is_repeated_is_let_go_at_the_end() -> None:
     assert (said.messages, said.lets_go) == ([FORWARD] * 5, 1)
 
 
-def test_what_is_said_so_many_times_stays_said() -> None:
-    said = Said("cmd_vel", "ff")
-    say(FORWARD, 3, 10, said)
-    assert said.lets_go == 0
+def test_what_is_said_so_many_times_stays_said_for_as_long_as_it_is_obeyed() -> None:
+    said, node = Said("cmd_vel", "ff"), Node()
+    say(FORWARD, 3, 10, said, node)
+    assert (said.messages, said.lets_go, node.stayed) == ([FORWARD] * 3, 0, 0.5)
+
+
+def test_who_is_ended_leaves_at_once() -> None:
+    node = Node()
+    say(FORWARD, None, 5, node=node)
+    assert not hasattr(node, "stayed")
 
 
 @pytest.mark.parametrize(("released", "lets_go"), [(4, 1), (5, 0)], ids=["restarted", "stopped meanwhile"])
