@@ -3,19 +3,24 @@
 PYTHON ?= python3
 BIN := .venv/bin
 
-.PHONY: demo test lint format schemas bench soak fuzz clean
+.PHONY: demo test unit lint format schemas bench soak fuzz clean
 
 demo: .venv/installed
 	@$(BIN)/zteleop demo
 
-# What claims an order shares the machine, three tests at a time; what claims a duration has it alone, afterwards.
-# Thousands of processes start meanwhile, so Python keeps what it compiled, whatever the surroundings say.
+# What claims an order shares the machine, three tests at a time, with the units; what claims a duration has it alone,
+# afterwards. Thousands of processes start meanwhile, so Python keeps what it compiled, whatever the surroundings say.
 test: export PYTHONDONTWRITEBYTECODE =
 test: .venv/installed-dev
 	@$(BIN)/python -m compileall -q zteleop
-	@$(BIN)/pytest --numprocesses 3 --dist loadfile --no-loadscope-reorder --durations 20 \
-		tests/system tests/faults tests/fuzz tests/unit; \
-	order=$$?; $(BIN)/pytest --durations 20 tests/timing && exit $$order
+	@said=$$(mktemp); $(BIN)/pytest tests/unit >$$said 2>&1 & units=$$!; \
+	$(BIN)/pytest --numprocesses 3 --dist loadfile --no-loadscope-reorder --durations 20 \
+		tests/system tests/faults tests/fuzz; order=$$?; \
+	wait $$units; units=$$?; cat $$said; rm $$said; \
+	$(BIN)/pytest --durations 20 tests/timing && exit $$((order | units))
+
+unit: .venv/installed-dev
+	@$(BIN)/pytest --numprocesses auto --dist loadfile tests/unit
 
 lint: .venv/installed-dev
 	$(BIN)/ruff check

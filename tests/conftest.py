@@ -7,9 +7,10 @@ from hypothesis import settings
 from rig import Rig
 
 pytest_plugins = ["judging", "leaks"]
-# What runs in a shell's background ignores both, and so would all that the tests start and end by them.
+# What runs in a shell's background, or by nohup, ignores these, and so would all that the tests start.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 signal.signal(signal.SIGQUIT, signal.SIG_DFL)
+signal.signal(signal.SIGHUP, signal.SIG_DFL)
 # How many examples of each claim about anything at all: `make soak` asks for the long one.
 settings.register_profile("short", deadline=None, max_examples=25)
 settings.register_profile("long", deadline=None, max_examples=1000)

@@ -122,7 +122,9 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
     }
     unjudged = {report.nodeid for report in reporter.stats.get("not judged", [])}
     claims = [nodeid for nodeid, report in ran.items() if getattr(report, "claims", False)]
-    rows = Ledger(ledger_file()).note([*ran], unjudged)
+    if not claims:
+        return
+    rows = Ledger(ledger_file()).note(claims, unjudged)
     stuck = sorted(nodeid for nodeid, row in rows.items() if row >= IN_A_ROW)
     if len(unjudged) > AT_MOST * max(len(claims), ALONE) or stuck:
         session.exitstatus = session.exitstatus or pytest.ExitCode.TESTS_FAILED

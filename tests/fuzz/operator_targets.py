@@ -11,7 +11,6 @@ from fuzz.reading import ALL, safe
 from zteleop.bus import codec
 from zteleop.bus.escape import printable
 from zteleop.cli import VERBS
-from zteleop.cli.pub import _yaml
 from zteleop.config import Config
 from zteleop.control.report import to_vehicle
 from zteleop.errors import ConfigError, MessageError
@@ -20,6 +19,7 @@ from zteleop.inputs.keymap import DIRECTIONS, bindings
 from zteleop.interfaces.values import fill
 from zteleop.messages import MESSAGES
 from zteleop.terminal.keys import KeyParser
+from zteleop.text import yaml_text
 
 DRIVE_ACTIONS = {*ACTIONS, *DIRECTIONS}
 
@@ -92,7 +92,7 @@ def values(data: bytes) -> None:
     """Take any text for the YAML that somebody publishes."""
     text = data.decode("utf-8", "surrogateescape")
     try:
-        said = _yaml(text)
+        said = yaml_text.load(text)
     except MessageError as error:
         safe(printable(str(error)))
         return

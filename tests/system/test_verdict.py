@@ -180,12 +180,12 @@ def test_what_a_machine_alone_can_break_is_excused_only_by_it(run: Run) -> None:
 ORDER = "def test_it():\n    TRIED.append(1)\n    {body}\n"
 
 
-@pytest.mark.parametrize("mark", ["", "@pytest.mark.timing\n"], ids=["order", "before a claim of time"])
-def test_what_a_machine_kept_from_happening_is_awaited_again(run: Run, mark: str) -> None:
-    test = mark + ORDER
-    code, text = run(test.format(body="stall()\n    if len(TRIED) < 2: raise Unmet('nothing came')"))
-    assert (code, text.count("waits for quiet"), "NOT JUDGED" in text) == (0, 1, False), text
-    code, text = run(test.format(body="stall()\n    raise Unmet('nothing came')"))
+def test_what_a_machine_kept_from_happening_is_awaited_again(run: Run) -> None:
+    fails = "stall()\n    if len(TRIED) < {}: raise Unmet('nothing came')"
+    before_a_claim = timing(fails.format(4), "test_before_a_claim")
+    code, text = run(ORDER.format(body=fails.format(2)) + before_a_claim)
+    assert (code, text.count("waits for quiet"), "NOT JUDGED" in text) == (0, 2, False), text
+    code, text = run(ORDER.format(body="stall()\n    raise Unmet('nothing came')"))
     assert (code, text.count("waits for quiet")) == (0, 2), text
     assert re.search(
         r"NOT JUDGED test_it.py::test_it: a process waited \d\.\d+ s for a core: nothing came", text

@@ -13,6 +13,7 @@ from rig import NEUTRAL, PATIENCE, ZTELEOP, Rig, every, repeating, until
 from verdict import Deadline, NotJudged, judged
 
 from zteleop import chaos
+from zteleop.chaos import load
 from zteleop.chaos.bench import Subject
 from zteleop.chaos.fault import Fault
 from zteleop.chaos.trial import attempt, driven
@@ -37,10 +38,11 @@ LONG = {
     "link slower by half a second",
     "link of 4 kbit/s",
     "chip answers two times of three",
+    "actuator killed, bus takes 100 ms",
     *(
         f"{what}, {how}"
         for what in ("operator killed", "actuator killed", "stop pressed")
-        for how in ("bus fails 1 in 3", "bus takes 20 ms")
+        for how in ("bus fails 1 in 3", "bus fails at random", "bus takes 20 ms")
     ),
 }
 """Left to `make soak`: another fault is much like it."""
@@ -51,7 +53,8 @@ SHORT = [fault for kind, fault in chaos.faults() if kind != "load" and fault.nam
 
 
 @pytest.mark.parametrize("fault", SHORT, ids=lambda fault: fault.name.replace(" ", "-"))
-def test_a_fault_brings_neutral_in_time_and_for_good(fault: Fault) -> None:
+def test_a_fault_brings_neutral_in_time_and_for_good(fault: Fault, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(load, "WHILE", 1.5)
     outcome = attempt(Subject(Config(), ("--driver", "simulated")), fault)
     assert outcome.broken == ""
     if fault.bound is not None:

@@ -1,6 +1,5 @@
 import argparse
 from contextlib import suppress
-from typing import Any
 
 import msgspec
 
@@ -12,9 +11,10 @@ from zteleop.bus.topics import topic_of
 from zteleop.cli import _options
 from zteleop.control.drive import SOURCES
 from zteleop.control.resume import Resume
-from zteleop.errors import BusError, ConfigError, MessageError
+from zteleop.errors import BusError, ConfigError
 from zteleop.interfaces.values import fill
 from zteleop.messages import DriveStatus, Message, message_type
+from zteleop.text import yaml_text
 
 HEARD_WITHIN = 3.0
 SETTLE = 0.1
@@ -41,7 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> None:
     settings = _options.load(arguments)
     kind = message_type(arguments.type)
-    message = fill(kind, _yaml(arguments.values))
+    message = fill(kind, yaml_text.load(arguments.values))
     times = 1 if arguments.once else arguments.times
     robot = _options.robot_of(arguments.topic, settings)
     # A late command is worse than none; whatever else is said so many times is to be heard so often.
@@ -110,18 +110,6 @@ def _wait(node: Node, publisher: Publisher[Message], command: bool) -> None:
         node.spin(SETTLE)
     else:
         print("nobody hears this yet", flush=True)
-
-
-def _yaml(text: str) -> Any:
-    import yaml
-
-    try:
-        return yaml.safe_load(text)
-    except Exception as error:  # a tag such as !!timestamp on another text fails in ways of its own
-        problem = " ".join(str(error).split())
-        raise MessageError(
-            f"expected YAML such as '{{linear: {{x: 0.2}}}}', found {text!r}: {problem}"
-        ) from None
 
 
 def _rate_hz(text: str) -> float:

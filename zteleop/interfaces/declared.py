@@ -42,9 +42,16 @@ def _collect(kind: type[Message], found: dict[str, type[Message]]) -> None:
     if kind.ros_type in found:
         return
     found[kind.ros_type] = kind
-    for annotation in field_types(kind).values():
-        if inner := message_in(annotation, kind.ros_type.partition("/")[0]):
-            _collect(inner, found)
+    for inner in _within(kind):
+        _collect(inner, found)
+
+
+@cache
+def _within(kind: type[Message]) -> list[type[Message]]:
+    """Return the messages that the fields of a message hold."""
+    package = kind.ros_type.partition("/")[0]
+    found = (message_in(annotation, package) for annotation in field_types(kind).values())
+    return [inner for inner in found if inner]
 
 
 def _type(annotation: Any, package: str, name: str) -> Type:

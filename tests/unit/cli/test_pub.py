@@ -9,7 +9,6 @@ from unit.nodes.fakes import Node, Said
 from zteleop.cli import pub
 from zteleop.control.gate import Refusal
 from zteleop.control.resume import Resume
-from zteleop.errors import MessageError
 from zteleop.messages import DriveStatus, Message, Refusals, Refused, Twist
 
 FORWARD = Twist.planar(0.5)
@@ -114,22 +113,6 @@ def status(released: int, operator: str = "ff") -> DriveStatus:
     return status
 
 
-@pytest.mark.parametrize(
-    ("text", "values"),
-    [("{linear: {x: 0.2}}", {"linear": {"x": 0.2}}), ("{}", {}), ("", None), ("[1, 2]", [1, 2])],
-)
-def test_values_are_yaml(text: str, values: object) -> None:
-    assert pub._yaml(text) == values
-
-
-@pytest.mark.parametrize("text", ["{linear: {x: 0.2}", "a: b: c", "!!python/name:os.system", "2024-13-45"])
-def test_what_is_no_yaml_is_refused_with_an_example(text: str) -> None:
-    with pytest.raises(MessageError) as error:
-        pub._yaml(text)
-    assert str(error.value).startswith(f"expected YAML such as '{{linear: {{x: 0.2}}}}', found {text!r}: ")
-    assert "\n" not in str(error.value)
-
-
 @pytest.mark.parametrize(("text", "rate"), [("20", 20.0), ("0.5", 0.5), ("1000", 1000.0)])
 def test_a_rate_is_a_number(text: str, rate: float) -> None:
     assert pub._rate_hz(text) == rate
@@ -147,11 +130,3 @@ def test_a_count_that_never_comes_is_refused(times: str, capsys: pytest.CaptureF
     pub.add_arguments(parser)
     with pytest.raises(SystemExit):
         parser.parse_args(["archangel/cmd_vel", "Twist", "-t", times])
-
-
-@pytest.mark.parametrize(
-    "text", ["!!timestamp x", "!!int ''", "!!bool x", "[" * 2000, "2001-99-99", "{[1]: 2}"]
-)
-def test_what_is_no_yaml_is_said_however_it_fails(text: str) -> None:
-    with pytest.raises(MessageError, match="expected YAML such as"):
-        pub._yaml(text)

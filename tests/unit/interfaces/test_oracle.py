@@ -6,7 +6,7 @@ import pytest
 from rosbags.typesys import Stores, get_typestore
 from rosbags.typesys import store as their_store
 from unit.interfaces.cdr.test_peers import same
-from unit.interfaces.cdr.values import anything, kinds
+from unit.interfaces.cdr.values import TIMES, anything, kinds
 
 from zteleop.interfaces import cdr
 from zteleop.interfaces.distros import struct_for
@@ -41,7 +41,6 @@ CHARS = {
     ),
 }
 """types with a char, which rosbags takes for that of an IDL file; in a .msg file it is a uint8"""
-TIMES = 4
 
 
 def test_there_are_enough_to_compare() -> None:

@@ -3,7 +3,7 @@ import struct
 from typing import Any
 
 import pytest
-from unit.interfaces.cdr.values import anything, halves, kinds
+from unit.interfaces.cdr.values import TIMES, anything, halves, kinds
 
 from zteleop.errors import MessageError
 from zteleop.interfaces import cdr, ros2msg
@@ -114,14 +114,14 @@ def test_every_type_is_read_as_it_was_written() -> None:
     without = [kind for kind in kinds() if not has_words(kind)]
     assert [kind.ros_type for kind in without] == ["example_interfaces/msg/WString"]
     for kind in {*kinds(), *halves()}:
-        for message in [anything(kind, dice) for _ in range(5 if has_words(kind) else 0)]:
+        for message in [anything(kind, dice) for _ in range(TIMES if has_words(kind) else 0)]:
             assert cdr.decode(cdr.encode(message), kind) == message
 
 
 def test_what_is_read_in_the_other_order_is_the_same() -> None:
     dice = random.Random(2)
     for kind in {*kinds(), *halves()} - {struct_of("example_interfaces/msg/WString")}:
-        for message in [anything(kind, dice) for _ in range(3)]:
+        for message in [anything(kind, dice) for _ in range(TIMES)]:
             assert cdr.decode(turned(message), kind) == message
 
 

@@ -108,7 +108,7 @@ def test_of_every_message_what_follows_is_padding_or_refused() -> None:
 
 
 def test_every_other_representation_is_named() -> None:
-    for number in range(2, 2**16):
+    for number in [*range(2, 600), *range(600, 2**16, 101)]:
         with pytest.raises(MessageError, match="expected CDR, which begins with 00 00 or 00 01, found '"):
             cdr.decode(number.to_bytes(2, "big") + b"\0\0\1", Bool)
 

@@ -7,12 +7,11 @@ from typing import Any
 import pytest
 from mcap_ros2._dynamic import generate_dynamic, serialize_dynamic
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
-from unit.interfaces.cdr.values import anything, kinds
+from unit.interfaces.cdr.values import TIMES, anything, kinds
 
 from zteleop.interfaces import cdr, ros2msg
 from zteleop.messages import Message
 
-TIMES = 6
 KINDS = [
     kind for kind in kinds() if "/msg/" in kind.ros_type and kind.ros_type != "example_interfaces/msg/WString"
 ]
@@ -38,8 +37,9 @@ def told(ros_type: str, text: str) -> Any:
 
 
 def test_rosbags_reads_and_writes_the_same() -> None:
+    store = get_typestore(Stores.EMPTY)
     for kind in KINDS:
-        name, store = kind.ros_type, get_typestore(Stores.EMPTY)
+        name = kind.ros_type
         first, *others = ros2msg.text(kind).split(f"{ros2msg.BETWEEN}\nMSG: ")
         store.register(told(name, first))
         for short, _, text in (other.partition("\n") for other in others):

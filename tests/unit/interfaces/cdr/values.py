@@ -5,6 +5,8 @@ import struct
 from collections.abc import Mapping
 from typing import Any
 
+from hypothesis import settings
+
 from zteleop.interfaces import derived, library
 from zteleop.interfaces.declared import declared, parts
 from zteleop.interfaces.msg_text import PARTS, Type
@@ -17,6 +19,8 @@ INTEGERS = {
     **{f"int{bits}": (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1) for bits in (8, 16, 32, 64)},
     **{f"uint{bits}": (0, 2**bits - 1) for bits in (8, 16, 32, 64)},
 }
+TIMES = settings.default.max_examples // 10  # type: ignore[attr-defined]
+"""messages of each type"""
 LETTERS = "abc /\N{LATIN SMALL LETTER E WITH ACUTE}\N{ROBOT FACE}"
 
 
