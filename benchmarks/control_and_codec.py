@@ -8,8 +8,9 @@ from figures import is_quick, median, p99, print_table, verdict
 
 from zteleop.bus import clock, codec
 from zteleop.bus.loop import Loop
-from zteleop.control.drive import SOURCES, Drive, DriveSettings
+from zteleop.control.drive import Drive
 from zteleop.control.proof import Proof
+from zteleop.control.settings import SOURCES, DriveSettings
 from zteleop.messages import Header, Pwm, Twist, TwistStamped
 
 TICK_US, EPOCH, LATER = 4.0, 7, 1e-5

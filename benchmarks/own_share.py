@@ -18,8 +18,8 @@ from zteleop.bus.session import Session, open_session
 from zteleop.bus.settings import BusSettings
 from zteleop.bus.subscription import Subscription
 from zteleop.cli.keyboard import painter
-from zteleop.control.drive import DriveSettings
 from zteleop.control.report import to_vehicle
+from zteleop.control.settings import DriveSettings
 from zteleop.drivers import open_driver
 from zteleop.inputs.keyboard import Keyboard
 from zteleop.inputs.levers import Steps

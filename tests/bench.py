@@ -29,16 +29,16 @@ sys.exit(main(sys.argv[2:]))
 """
 IGNORES_IDLENESS = """
 from zteleop.control.gate import Gate, Refusal
-from zteleop.control.mux import Mux
+from zteleop.control.mux import Silences
 judge = Gate.judge
 def lax(*arguments):
     refusal = judge(*arguments)
     return None if refusal is Refusal.OPERATOR_IDLE else refusal
-Gate.judge, Mux.idle = lax, lambda self, claim, now: False
+Gate.judge, Silences.idle = lax, lambda self, claim, now: False
 """
 IGNORES_SILENCE = """
-from zteleop.control.mux import Mux
-Mux.silent = lambda self, claim, now: False
+from zteleop.control.mux import Silences
+Silences.silent = lambda self, claim, now: False
 """
 HEARS_NO_STOP = """
 from zteleop.bus.node import Node
@@ -48,9 +48,9 @@ def deaf(self, topic, types, handler=None, **options):
 Node.subscription = deaf
 """
 MOVES_ALTHOUGH_STOPPED = """
-from zteleop.control.drive import Drive
-hold = Drive.hold
-Drive.hold = lambda self, reason, *words: None if reason == "stop" else hold(self, reason, *words)
+from zteleop.control.admission import Admission
+hold = Admission.hold
+Admission.hold = lambda self, reason, *words: None if reason == "stop" else hold(self, reason, *words)
 """
 LEAVES_SLOWLY = """
 import time

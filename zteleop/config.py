@@ -12,7 +12,7 @@ from msgspec import Struct, field
 
 from zteleop.bus.names import chunk, robot_name
 from zteleop.bus.settings import BusSettings
-from zteleop.control.drive import DriveSettings
+from zteleop.control.settings import DriveSettings
 from zteleop.control.stick import Speeds
 from zteleop.drivers import settings_of
 from zteleop.drivers.simulated import default_path

@@ -6,10 +6,10 @@ from typing import Literal
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from zteleop.control.drive import DriveSettings
 from zteleop.control.mixer import Differential
 from zteleop.control.report import to_vehicle
 from zteleop.control.servo import Servo
+from zteleop.control.settings import DriveSettings
 from zteleop.control.stick import to_pwm, to_twist
 from zteleop.inputs.keyboard import Keyboard
 from zteleop.inputs.levers import Steps

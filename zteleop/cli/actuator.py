@@ -5,7 +5,7 @@ import msgspec
 from zteleop import config
 from zteleop.cli import _options
 from zteleop.config import Config
-from zteleop.control.drive import DriveSettings
+from zteleop.control.settings import DriveSettings
 from zteleop.drivers import DRIVERS, open_driver
 from zteleop.errors import ConfigError
 from zteleop.processes import watchdog

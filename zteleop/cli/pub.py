@@ -9,8 +9,8 @@ from zteleop.bus.node import Node
 from zteleop.bus.publisher import Publisher
 from zteleop.bus.topics import topic_of
 from zteleop.cli import _options
-from zteleop.control.drive import SOURCES
 from zteleop.control.resume import Resume
+from zteleop.control.settings import SOURCES
 from zteleop.errors import BusError, ConfigError
 from zteleop.interfaces.values import fill
 from zteleop.messages import DriveStatus, Message, message_type

@@ -39,7 +39,8 @@ def _operator(step: Step, now: float) -> str:
 
 
 def _mux(drive: Drive, step: Step, now: float) -> str:
-    claims = [claim for claim in drive.mux.claims if not drive.mux.silent(claim, now)]
+    heard = drive.admission
+    claims = [claim for claim in heard.mux.claims if not heard.silences.silent(claim, now)]
     waiting = [_sender(claim) for claim in claims if claim is not step.claim]
     priority = drive.settings.known_sources[step.claim.source].priority if step.claim else 0
     chosen = f"{step.claim.source} drives with priority {priority}" if step.claim else "no claim counts"
@@ -52,21 +53,19 @@ def _gate(drive: Drive, now: float) -> str:
 
 
 def _refusals(drive: Drive, now: float) -> Iterator[tuple[str, str]]:
-    for source, refused in drive.refusals.items():
-        if now - refused.at <= RECENT:
-            since, ago = now - refused.since, now - refused.at
-            yield source, f"{refused.why} ({refused.times} times in {since:.1f} s, last {ago:.1f} s ago)"
+    for source, refused in drive.admission.refusals.recent(now, RECENT).items():
+        since, ago = now - refused.since, now - refused.at
+        yield source, f"{refused.why} ({refused.times} times in {since:.1f} s, last {ago:.1f} s ago)"
 
 
 def _rest(drive: Drive, step: Step, now: float) -> str:
-    if drive.holds:
-        held = [f"{hold.state} for {now - hold.since:.1f} s: {hold.why}" for hold in drive.holds.in_order]
-        return "; ".join(held)
+    if holds := drive.admission.holds.in_order:
+        return "; ".join(f"{hold.state} for {now - hold.since:.1f} s: {hold.why}" for hold in holds)
     return "free to move" if step.claim else f"{step.state}: {step.why}"
 
 
 def _cap(drive: Drive, step: Step) -> str:
-    bound, top = step.bound, _metres(drive.cap.top)
+    bound, top = step.bound, _metres(drive.movement.cap.top)
     if bound.by != "vehicle":
         return f"{_metres(bound.speed)} of {top} m/s: {slowed(drive, step)}{_distance(drive, step)}"
     return f"{top} m/s: {_age(drive, step.claim, bound) if step.claim else 'nobody drives'}"
@@ -76,7 +75,7 @@ def slowed(drive: Drive, step: Step) -> str:
     """Return why the vehicle may not go as fast as it can; nothing when it may."""
     claim, bound = step.claim, step.bound
     if bound.by == "strain":
-        return drive.cap.strain.why
+        return drive.movement.cap.strain.why
     if claim is None or bound.by == "vehicle":
         return ""
     if bound.by == "source":
@@ -85,7 +84,7 @@ def slowed(drive: Drive, step: Step) -> str:
 
 
 def _age(drive: Drive, claim: Claim, bound: Bound) -> str:
-    if drive.is_foreign(claim):
+    if drive.admission.foreign.includes(claim):
         return f"commands of {claim.source} cannot prove their age"
     return f"commands of {claim.source} are up to {bound.latency * 1000:.0f} ms old"
 
@@ -133,7 +132,7 @@ def _wheels(drive: Drive, chip: Evidence, now: float) -> str:
     said = [", ".join(f"{p.name} {p.pulse_us:.0f} us = {p.duty_ticks} ticks" for p in pulses)]
     if now - chip.written > OLD:
         said.append(f"which the chip took {now - chip.written:.1f} s ago, and nothing since")
-    if drive.latch.stops:
+    if drive.admission.latch.stops:
         said.append(STANDS[chip.confirmed])
     return "; ".join(said)
 

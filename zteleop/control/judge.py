@@ -1,13 +1,15 @@
 """A second opinion on what the actuator does, from the same commands and by the same gate, a little later."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 from msgspec.structs import replace
 
-from zteleop.control.drive import Drive, DriveSettings
+from zteleop.control.admission import Admission
+from zteleop.control.calibration import Calibration
 from zteleop.control.gate import SENDERS, Refusal
-from zteleop.control.mux import Claim, Mux
+from zteleop.control.mux import Claim, Silences
 from zteleop.control.proof import NEVER, Proof
+from zteleop.control.settings import DriveSettings
 from zteleop.control.standing import Standing
 from zteleop.messages import Pwm, Twist
 
@@ -17,17 +19,24 @@ LOOKS = 2
 """How many looks in a row must find the same fault: one may fall between a command and its pulse."""
 
 
-class Claims(Mux):
+class EveryClaim:
     """Keeps every claim until its silence: who drives, and who lets go, is the actuator's question.
 
     It may have lost the message by which somebody let go, and then its own deadline is what counts.
     """
 
+    def __init__(self, silences: Silences) -> None:
+        self._silences = silences
+        self._claims: dict[tuple[str, int], Claim] = {}
+
+    @property
+    def claims(self) -> Iterable[Claim]:
+        return self._claims.values()
+
     def offer(self, claim: Claim) -> bool:
         """Take every claim."""
-        name = f"{claim.source} {claim.sender}"
-        self._claims.pop(name, None)  # the newest last, so that whoever drives is not the first forgotten
-        self._claims[name] = claim
+        self._claims.pop((claim.source, claim.sender), None)  # the newest last: a driver is not forgotten
+        self._claims[claim.source, claim.sender] = claim
         if len(self._claims) > SENDERS:
             del self._claims[next(iter(self._claims))]
         return True
@@ -35,10 +44,13 @@ class Claims(Mux):
     def release(self, sender: int) -> None:
         """Let nobody go before his silence."""
 
-    def select(self, now: float) -> Claim | None:
-        """Return any claim that may move the robot, or None when nobody may."""
+    def clear(self) -> None:
+        self._claims.clear()
+
+    def select(self, now: float, after: float = NEVER) -> Claim | None:
+        """Return any claim that may move the robot, heard later than `after`; None when nobody may."""
         return next(
-            (c for c in self._claims.values() if not self.silent(c, now) and not self.idle(c, now)), None
+            (c for c in self._claims.values() if c.at > after and not self._silences.over(c, now)), None
         )
 
 
@@ -46,10 +58,10 @@ class Judge:
     """Knows which commands may move the robot now, and whether the chip's pulses are those of rest."""
 
     def __init__(self, settings: DriveSettings, tick_us: float, now: float) -> None:
-        later = _later(settings)
-        claims = Claims(later.known_sources, later.deadlines.operator)
-        self._drive = Drive(later, tick_us, -1, now, claims, GRACE)
-        self.neutral_us = self._drive.calibration.neutral_us
+        later, self._calibration = _later(settings), Calibration(settings.servos, tick_us)
+        claims = EveryClaim(Silences(later.known_sources, later.deadlines.operator))
+        self._admission = Admission(later, self._calibration, -1, now, claims, GRACE)
+        self.neutral_us = self._calibration.neutral_us
         self._epoch = -1
         self._stopped: float | None = None
         self._last_stopped = now
@@ -61,10 +73,10 @@ class Judge:
         """Learn of the actuator's epoch, and of the last interruption; what was said before is too old."""
         if standing.epoch != self._epoch:
             self._epoch, self._interrupted = standing.epoch, standing.since
-            self._drive.restart(standing.epoch, standing.since)
+            self._admission.restart(standing.epoch, standing.since)
         if standing.interrupted > self._interrupted:
             self._interrupted = standing.interrupted
-            self._drive.gate.interrupt(standing.interrupted, NEVER)
+            self._admission.gate.interrupt(standing.interrupted, NEVER)
 
     def hear_release(self, now: float) -> None:
         """Learn that somebody released a stop: no claim from before may go on."""
@@ -72,7 +84,7 @@ class Judge:
 
     def receive(self, source: str, command: Twist | Pwm, proof: Proof | None, now: float) -> Refusal | None:
         """Judge a command that the watchdog heard itself."""
-        refusal = self._drive.receive(source, command, proof, now)
+        refusal = self._admission.receive(source, command, proof, now).refusal
         if refusal is None and self.allowed(now):  # what moved before this was heard may have moved for it
             self._bad_looks = 0
         return refusal
@@ -87,9 +99,9 @@ class Judge:
         elif self._stopped is not None:
             self._stopped = None
             self.hear_release(now)
-            self._drive.gate.begin_after(self._last_stopped)  # it may have been released since
+            self._admission.gate.begin_after(self._last_stopped)  # it may have been released since
         if self._must_rest(now):
-            self._drive.mux.clear()
+            self._admission.mux.clear()
 
     @property
     def stopped(self) -> bool:
@@ -98,11 +110,11 @@ class Judge:
 
     def allowed(self, now: float) -> bool:
         """Say whether somebody may drive now."""
-        return not self._must_rest(now) and self._drive.mux.select(now) is not None
+        return not self._must_rest(now) and self._admission.select(now) is not None
 
     def at_rest(self, pulse_us: Mapping[int, float | None]) -> bool:
         """Say whether these pulses are neutral, to half a tick, or none at all."""
-        return self._drive.calibration.at_rest(pulse_us)
+        return self._calibration.at_rest(pulse_us)
 
     def look(self, pulse_us: Mapping[int, float | None], now: float) -> str | None:
         """Compare the chip with what may be; return why a stop must be engaged, if it must."""
@@ -111,7 +123,7 @@ class Judge:
         self._bad_looks = self._bad_looks + 1 if bad else 0
         if self._bad_looks < LOOKS:
             return None
-        why = "a stop is in force" if self._must_rest(now) else self._drive.step(now).why
+        why = "a stop is in force" if self._must_rest(now) else self._admission.rest(now)[1]
         return f"its pulses moved although {why}"
 
     def _must_rest(self, now: float) -> bool:

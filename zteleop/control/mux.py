@@ -3,8 +3,8 @@
 Within one source the sender that drives keeps it until it lets go or falls silent.
 """
 
-from collections.abc import Iterable
-from typing import Annotated, Literal, NamedTuple
+from collections.abc import Iterable, Mapping
+from typing import Annotated, Literal, NamedTuple, Protocol
 
 from msgspec import Meta, Struct
 
@@ -46,12 +46,50 @@ class Claim(NamedTuple):
     began: float
 
 
+class Silences:
+    """When a claim is over: nothing more was heard of its sender, or by it, or nobody acts any more."""
+
+    def __init__(self, sources: Mapping[str, Source], operator: float) -> None:
+        self._sources, self._operator = sources, operator
+
+    def silent(self, claim: Claim, now: float) -> bool:
+        """Say whether nothing more was heard of a claim's sender, or by its sender."""
+        silence = self._sources[claim.source].silence
+        return not (now - claim.at <= silence and now - claim.beat <= silence + HEARD_LATE)
+
+    def idle(self, claim: Claim, now: float) -> bool:
+        """Say whether nobody acts any more."""
+        return not now - claim.acted <= self._operator
+
+    def over(self, claim: Claim, now: float) -> bool:
+        return self.silent(claim, now) or self.idle(claim, now)
+
+
+class Claims(Protocol):
+    """The claims that passed the gate, until they are let go."""
+
+    @property
+    def claims(self) -> Iterable[Claim]:
+        """All of them, over or not."""
+
+    def offer(self, claim: Claim) -> bool:
+        """Take a claim; False when it must wait."""
+
+    def release(self, sender: int) -> None:
+        """Let go whatever a sender holds, or waits for."""
+
+    def clear(self) -> None:
+        """Let everybody go."""
+
+    def select(self, now: float, after: float = NEVER) -> Claim | None:
+        """Return the claim to obey, heard later than `after`; None when nobody may drive."""
+
+
 class Mux:
     """Keeps the claim of each source until it is let go."""
 
-    def __init__(self, sources: dict[str, Source], operator_silence: float, link_loss: float = 2.0) -> None:
-        self._sources, self._operator_silence, self._link_loss = sources, operator_silence, link_loss
-        self.interrupted = NEVER
+    def __init__(self, sources: Mapping[str, Source], silences: Silences, link_loss: float) -> None:
+        self._silences, self._link_loss = silences, link_loss
         self._ranked = sorted(sources, key=lambda name: -sources[name].priority)
         self._claims: dict[str, Claim] = {}
         self._waiting: dict[tuple[str, int], float] = {}
@@ -86,25 +124,10 @@ class Mux:
     def clear(self) -> None:
         self._claims.clear()
 
-    def interrupt(self, now: float) -> None:
-        """Obey nothing that was said up to now, and keep everybody's place."""
-        self.interrupted = now
-
-    def select(self, now: float) -> Claim | None:
-        """Return the claim to obey, or None when nobody may drive."""
+    def select(self, now: float, after: float = NEVER) -> Claim | None:
+        """Return the claim to obey, heard later than `after`; None when nobody may drive."""
         for name in self._ranked:
             claim = self._claims.get(name)
-            if claim and claim.at > self.interrupted and not self._over(claim, now):
+            if claim and claim.at > after and not self._silences.over(claim, now):
                 return claim
         return None
-
-    def _over(self, claim: Claim, now: float) -> bool:
-        return self.silent(claim, now) or self.idle(claim, now)
-
-    def silent(self, claim: Claim, now: float) -> bool:
-        """Say whether a claim is over: nothing more was heard of its sender, or by its sender."""
-        silence = self._sources[claim.source].silence
-        return not (now - claim.at <= silence and now - claim.beat <= silence + HEARD_LATE)
-
-    def idle(self, claim: Claim, now: float) -> bool:
-        return not now - claim.acted <= self._operator_silence

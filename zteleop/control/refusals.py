@@ -1,4 +1,4 @@
-"""Who has been refused for long enough to be told: a program that streams hears it no other way."""
+"""Who is refused, and why; a sender for long enough is told: a program that streams hears it no other way."""
 
 from typing import NamedTuple
 
@@ -11,6 +11,35 @@ FORGOTTEN_AFTER = LAPSE
 """s without a command"""
 SENDERS = 64
 """How many are remembered; whoever comes then waits until one is obeyed or silent."""
+
+
+class Refused(NamedTuple):
+    """What the gate last said to a source."""
+
+    why: Refusal
+    since: float
+    at: float
+    times: int
+
+
+class RefusedSources:
+    """Keeps what was last said to each source, for whoever asks why the robot rests."""
+
+    def __init__(self) -> None:
+        self.count = 0
+        """of all refusals so far"""
+        self._sources: dict[str, Refused] = {}
+
+    def note(self, source: str, why: Refusal, now: float) -> None:
+        """Remember a refusal; those in a row for one reason are one."""
+        self.count += 1
+        last = self._sources.get(source)
+        since, times = (last.since, last.times) if last and last.why == why else (now, 0)
+        self._sources[source] = Refused(why, since, now, times + 1)
+
+    def recent(self, now: float, seconds: float) -> dict[str, Refused]:
+        """Return what was said in the last seconds, by source."""
+        return {source: last for source, last in self._sources.items() if now - last.at < seconds}
 
 
 class Turned(NamedTuple):

@@ -1,9 +1,10 @@
 """What an actuator says of itself."""
 
-from zteleop.control.drive import Drive, DriveSettings, Step
+from zteleop.control.drive import Drive, Step
 from zteleop.control.evidence import Evidence
 from zteleop.control.explain import slowed, wanted
 from zteleop.control.refusals import Turned
+from zteleop.control.settings import DriveSettings
 from zteleop.messages import DriveStatus, Refusals, Refused, Vehicle
 
 
@@ -36,20 +37,20 @@ def status(drive: Drive, step: Step, chip: Evidence, unkept: str = "") -> DriveS
         pulses=drive.calibration.pulses(chip.pulse_us),
         seq=claim.seq if claim else 0,
         written=chip.written,
-        stops=list(drive.latch.stops),
+        stops=list(drive.admission.latch.stops),
         unkept=unkept,
         confirmed=chip.confirmed,
-        refused=drive.refused,
+        refused=drive.admission.refusals.count,
         clamped=drive.clamped,
         max_speed=step.bound.speed,
         latency=step.bound.latency,
         slowed=slowed(drive, step),
-        released=drive.latch.released,
+        released=drive.admission.latch.released,
     )
 
 
 def refusals(drive: Drive, refused: dict[int, Turned], now: float) -> Refusals:
     """Return what a robot says to those whose commands do not count."""
-    rest = drive.holds.strongest
+    rest = drive.admission.holds.strongest
     told = [Refused(f"{who:x}", last.source, last.why, now - last.since) for who, last in refused.items()]
-    return Refusals(told, rest.why if rest else "", drive.latch.released)
+    return Refusals(told, rest.why if rest else "", drive.admission.latch.released)

@@ -32,9 +32,9 @@ class Standing(NamedTuple):
 
 def stand(drive: Drive, since: float) -> Standing:
     """Return what another drive needs to go on in the place of this one."""
-    gate = drive.gate
-    standing = Standing(gate.epoch, since, gate.floor, max(since, drive.mux.interrupted))
-    claim = drive.driver
+    gate = drive.admission.gate
+    standing = Standing(gate.epoch, since, gate.floor, max(since, drive.admission.interruption.ended))
+    claim = drive.admission.driver
     if claim is None or (counted := gate.last_counted(claim.sender)) == NEVER:
         return standing
     source = list(drive.settings.known_sources).index(claim.source)
@@ -46,8 +46,8 @@ def go_on(drive: Drive, standing: Standing, why: str, now: float) -> None:
 
     Whoever drove keeps right and place for as long as after a lost link; all others begin anew.
     """
-    drive.gate.take_over(standing.floor)
+    drive.admission.gate.take_over(standing.floor)
     if standing.source != NOBODY:
         source = list(drive.settings.known_sources)[standing.source]
-        drive.recall(source, standing.sender, standing.began, standing.counted, now)
-    drive.interrupt(why, now, drive.settings.deadlines.link_loss)
+        drive.admission.recall(source, standing.sender, standing.began, standing.counted, now)
+    drive.admission.interrupt(why, now, drive.settings.deadlines.link_loss)

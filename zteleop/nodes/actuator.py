@@ -5,11 +5,12 @@ from zteleop.bus.node import Node
 from zteleop.bus.subscription import Received
 from zteleop.bus.topics import TOPICS
 from zteleop.control.command import to_command
-from zteleop.control.drive import Drive, DriveSettings
+from zteleop.control.drive import Drive
 from zteleop.control.explain import layers
 from zteleop.control.proof import called
 from zteleop.control.refusals import RefusedSenders
 from zteleop.control.report import refusals, status, to_vehicle
+from zteleop.control.settings import DriveSettings
 from zteleop.control.standing import NOBODY, Standing, go_on, stand
 from zteleop.control.stop import stopped_by
 from zteleop.drivers import PulseDriver
@@ -72,13 +73,13 @@ class Actuator:
         # Whoever drove had an ESC that was armed, and the watchdog has kept the chip at neutral since.
         self._output.start(now, arm=standing is None or standing.source == NOBODY)
         self._refused = RefusedSenders()
-        self._drive.latch.released = stop_file.released()
+        self._drive.admission.latch.released = stop_file.released()
         if standing:
             self._take_over(standing, now)
         else:
-            self._drive.hold(DEAF, "starting", UNHEARD, now)
+            self._drive.admission.hold(DEAF, "starting", UNHEARD, now)
         for stop in stop_file.load():
-            self._drive.stop(stop, self._since)
+            self._drive.admission.stop(stop, self._since)
         self._watched = clock.now()
         self._step = self._drive.step(self._watched)
         self._beats = node.publisher("beat", Beat)
@@ -104,12 +105,12 @@ class Actuator:
             self._node.every(CHECK_EVERY)(lambda: self._output.check(clock.now()))
             self._node.every(KEEP_EVERY)(self._stop_file.tend)
             if health := self._health:
-                self._node.every(LOOK_EVERY)(lambda: self._drive.cap.bear(health.look(clock.now())))
+                self._node.every(LOOK_EVERY)(lambda: self._drive.movement.cap.bear(health.look(clock.now())))
             self._node.log.info(f"obeys {self._node.robot}")
-            if held := self._drive.latch.stops:
+            if held := self._drive.admission.latch.stops:
                 self._node.log.warn(stopped_by(held))
-            self._journal.event("start", robot=self._node.robot, epoch=self._drive.gate.epoch)
-            if why := self._drive.interruption:
+            self._journal.event("start", robot=self._node.robot, epoch=self._drive.admission.gate.epoch)
+            if why := self._drive.admission.interruption.why:
                 self._node.log.warn(f"{why}; whoever drove goes on with the next act")
                 self._journal.event("interruption", why=why)
             self._node.spin()
@@ -120,7 +121,7 @@ class Actuator:
         """Go on in the place of an actuator that was ended for being late."""
         self._since = standing.since
         go_on(self._drive, standing, TAKEN_OVER, now)
-        self._drive.pause(DEAF, UNHEARD, now)
+        self._drive.admission.pause(DEAF, UNHEARD, now)
 
     def _finish(self) -> None:
         """Leave neutral behind, as far as the chip takes it.
@@ -181,7 +182,7 @@ class Actuator:
         self._notice_pause(now)
         before, self._step = self._step, self._drive.step(now)
         self._output.write(self._step.pulse_us, now)
-        stopped = bool(self._drive.latch.stops)
+        stopped = bool(self._drive.admission.latch.stops)
         self._link.report(Report(now, stand(self._drive, self._since), stopped))
         if self._step.state != before.state:
             self._node.log.info(f"{self._step.state}: {self._step.why}")
@@ -195,17 +196,17 @@ class Actuator:
         For a moment it is an interruption. Nobody watched the chip meanwhile, for a watchdog that could
         has ended this process by then: so a longer one is a start, with a new epoch.
         """
-        if not (late := self._drive.late(now)):
+        if not (late := self._drive.admission.late(now)):
             return
         self._watched = now
         words = f"this process stood still for {late:.2f} s"
         limit = self._settings.deadlines.stand_still
         if late <= limit:
             self._node.log.warn(f"{words}; whoever drove goes on with the next act")
-            self._drive.interrupt(words, now, limit)
+            self._drive.admission.interrupt(words, now, limit)
         else:
             self._node.log.warn(f"{words}; whoever drove must let go first")
-            self._drive.restart(new_id(), now)
+            self._drive.admission.restart(new_id(), now)
             self._since = now
         self._journal.event("interruption", why=words)
 
@@ -217,18 +218,18 @@ class Actuator:
         for stop in words.stops:
             self._obey(stop)
         if words.hears:
-            self._drive.resume(DEAF, "the watchdog did not hear this robot on the bus", now)
+            self._drive.admission.resume(DEAF, "the watchdog did not hear this robot on the bus", now)
         elif words.hears is False:
-            self._drive.pause(DEAF, UNHEARD, now)
+            self._drive.admission.pause(DEAF, UNHEARD, now)
 
     def _obey(self, said: Stop) -> None:
         """Obey a stop or a release; the pulses first, the file and the words afterwards."""
-        latch = self._drive.latch
+        latch = self._drive.admission.latch
         rest = latch.without(said.id)
         releases = not said.engaged and len(rest) < len(latch.stops)
         if releases and not self._stop_file.release(said, rest):
             return
-        if not self._drive.stop(said, clock.now()):
+        if not self._drive.admission.stop(said, clock.now()):
             return
         if said.engaged:
             self._stop_file.promise(latch.stops)
@@ -245,11 +246,11 @@ class Actuator:
     def _withdraw(self, sender: int) -> None:
         """Let go at once for a sender whose process is gone; its deadline would come later."""
         now = clock.now()
-        self._drive.withdraw(sender, now)
+        self._drive.admission.withdraw(sender, now)
         self._step_soon(now)  # strangers may come and go by the thousand
 
     def _tell(self) -> None:
-        self._beats.publish(self._drive.beat(clock.now()))
+        self._beats.publish(self._drive.admission.beat(clock.now()))
         self._tell_status()
 
     def _tell_status(self) -> None:

@@ -25,7 +25,8 @@ class Output:
     """Writes pulses; keeps the drive at rest while its chip is at fault, and while the ESC arms."""
 
     def __init__(self, driver: PulseDriver, drive: Drive, say: Callable[[str], object]) -> None:
-        self._driver, self._drive, self._say = driver, drive, say
+        self._driver, self._admission, self._say = driver, drive.admission, say
+        self._calibration = drive.calibration
         self._neutral_us = drive.calibration.neutral_us
         self._taken: Mapping[int, float] = self._neutral_us
         self._written = 0.0
@@ -40,7 +41,7 @@ class Output:
     def evidence(self) -> Evidence:
         """What is known of the chip."""
         known: Confirmed = "read" if self._reads_rest else "cut" if self.is_cut else ""
-        return Evidence(self._taken, self._written, known if self._drive.latch.stops else "")
+        return Evidence(self._taken, self._written, known if self._admission.latch.stops else "")
 
     def start(self, now: float, arm: bool = True) -> None:
         """Bring the chip up at neutral; raises DeviceError when it does not come."""
@@ -79,16 +80,16 @@ class Output:
     def confirm(self) -> None:
         """Read back whether a robot that is stopped stands; what cannot be read is not known."""
         self._reads_rest = False
-        if self._drive.latch.stops and not self._broken and not self._slow:
+        if self._admission.latch.stops and not self._broken and not self._slow:
             with suppress(DeviceError):
-                self._reads_rest = self._drive.calibration.at_rest(self._driver.read(self._neutral_us))
+                self._reads_rest = self._calibration.at_rest(self._driver.read(self._neutral_us))
 
     def tend(self, now: float) -> None:
         """Write neutral to a chip at fault, repair it, and end the arming pause, when it is time."""
         if self._broken and self._write_neutral() and now >= self._repair_at:
             self._repair(now)
         if not self._broken and now >= self._armed_at:
-            self._drive.free(ARMING, now)
+            self._admission.free(ARMING, now)
 
     def rest(self) -> None:
         """Leave neutral behind; raises DeviceError when the chip does not take it."""
@@ -122,12 +123,12 @@ class Output:
         self._slow, self._quick = (self._slow + 1, 0) if slow else (0, self._quick + 1)
         if self._slow >= SLOW_WRITES:
             words = f"its bus is slow: a write took {took * 1000:.0f} ms, of at most {SLOW * 1000:.0f}"
-            if SLOWNESS not in self._drive.holds:
+            if SLOWNESS not in self._admission.holds:
                 self._say(f"the chip is at fault: {words}")
-            self._drive.hold(SLOWNESS, "fault", f"{words}; look at its wires, pull-ups and clock", now)
-        elif self._quick >= QUICK_WRITES and SLOWNESS in self._drive.holds:
+            self._admission.hold(SLOWNESS, "fault", f"{words}; look at its wires, pull-ups and clock", now)
+        elif self._quick >= QUICK_WRITES and SLOWNESS in self._admission.holds:
             self._say("the bus of the chip is quick again")
-            self._drive.free(SLOWNESS, now)
+            self._admission.free(SLOWNESS, now)
 
     def _look_twice(self) -> None:
         try:
@@ -148,20 +149,22 @@ class Output:
     def _break(self, words: str, now: float) -> None:
         self._broken, self._reads_rest, self._repair_at = True, False, now
         self._say(f"the chip is at fault: {words}")
-        self._drive.hold(FAULT, "fault", words, now)
+        self._admission.hold(FAULT, "fault", words, now)
 
     def _repair(self, now: float) -> None:
         self._repair_at = now + REPAIR_EVERY
         try:
             self._start()
         except DeviceError as error:
-            self._drive.hold(FAULT, "fault", str(error), now)
+            self._admission.hold(FAULT, "fault", str(error), now)
             return
         self._broken, self._failed = False, 0
         self._say("the chip is back, at neutral")
         self._arm(now)
-        self._drive.free(FAULT, now)
+        self._admission.free(FAULT, now)
 
     def _arm(self, now: float) -> None:
         self._armed_at = now + self._driver.arming
-        self._drive.hold(ARMING, "starting", f"neutral for {self._driver.arming:g} s while the ESC arms", now)
+        self._admission.hold(
+            ARMING, "starting", f"neutral for {self._driver.arming:g} s while the ESC arms", now
+        )

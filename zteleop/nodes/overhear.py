@@ -4,8 +4,8 @@ from zteleop.bus.node import Node
 from zteleop.bus.subscription import Subscription
 from zteleop.bus.topics import TOPICS
 from zteleop.control.command import to_command
-from zteleop.control.drive import DriveSettings
 from zteleop.control.judge import GRACE, Judge
+from zteleop.control.settings import DriveSettings
 from zteleop.control.stop import MERGED, Latch
 from zteleop.errors import MessageError
 from zteleop.machine.stop_file import UNREADABLE, StopFile

@@ -2,7 +2,7 @@
 
 from zteleop.bus import clock
 from zteleop.bus.node import Node
-from zteleop.control.drive import DriveSettings
+from zteleop.control.settings import DriveSettings
 from zteleop.drivers.registers import read_pulse_us
 from zteleop.drivers.simulated import open_registers
 from zteleop.messages import Odometry

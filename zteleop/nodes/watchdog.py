@@ -10,8 +10,8 @@ from zteleop.bus import clock
 from zteleop.bus.lane.ear import Ear, Heard
 from zteleop.bus.lane.wire import Answered
 from zteleop.bus.node import Node
-from zteleop.control.drive import DriveSettings
 from zteleop.control.judge import GRACE, Judge
+from zteleop.control.settings import DriveSettings
 from zteleop.control.standing import Standing
 from zteleop.drivers import PulseDriver
 from zteleop.errors import DeviceError

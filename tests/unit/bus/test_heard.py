@@ -4,8 +4,8 @@ from unit.bus.fakes import Clock, Ring, sample
 from zteleop.bus import codec, heard
 from zteleop.bus.heard import Heard
 from zteleop.bus.subscription import Subscription
-from zteleop.control.drive import DriveSettings
 from zteleop.control.report import to_vehicle
+from zteleop.control.settings import DriveSettings
 from zteleop.messages import Beat, Refusals, Vehicle
 
 CAR = to_vehicle(DriveSettings(), 4.08)

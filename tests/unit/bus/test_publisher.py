@@ -7,11 +7,11 @@ from zteleop.bus.heard import Heard
 from zteleop.bus.log import NodeLog
 from zteleop.bus.publisher import Publisher, moves
 from zteleop.bus.subscription import Subscription
-from zteleop.control.drive import DriveSettings
 from zteleop.control.mixer import Differential
 from zteleop.control.proof import NEVER, Proof, Prover
 from zteleop.control.report import to_vehicle
 from zteleop.control.servo import Servo
+from zteleop.control.settings import DriveSettings
 from zteleop.errors import MessageError
 from zteleop.messages import (
     Beat,

@@ -5,9 +5,9 @@ import pytest
 
 from zteleop.cli import actuator
 from zteleop.config import Config
-from zteleop.control.drive import DriveSettings
 from zteleop.control.mixer import Differential
 from zteleop.control.servo import Servo
+from zteleop.control.settings import DriveSettings
 from zteleop.errors import ConfigError
 
 TANK = DriveSettings(mixer=Differential(), servos={"left": Servo(channel=0), "right": Servo(channel=1)})

@@ -2,11 +2,11 @@
 
 from collections.abc import Callable
 
-from zteleop.control.drive import DriveSettings
 from zteleop.control.mixer import Differential
 from zteleop.control.motion.pose import Pose2D
 from zteleop.control.report import to_vehicle
 from zteleop.control.servo import Servo
+from zteleop.control.settings import DriveSettings
 from zteleop.messages import Twist, Vehicle
 from zteleop.sim import make_vehicle
 

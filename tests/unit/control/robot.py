@@ -1,9 +1,10 @@
 """A drive and the senders around it, on one clock; `now` is what the test says."""
 
-from zteleop.control.drive import Drive, DriveSettings, Step
+from zteleop.control.drive import Drive, Step
 from zteleop.control.evidence import Evidence
 from zteleop.control.gate import Refusal
 from zteleop.control.proof import Prover
+from zteleop.control.settings import DriveSettings
 from zteleop.messages import Beat, Confirmed, Pwm, Stop, Twist
 
 TICK_US = 4.08
@@ -34,7 +35,7 @@ class Robot:
         age: float = 0.0,
     ) -> Refusal | None:
         """Say a command that was `age` s on its way, from the robot's beat back to the robot."""
-        prover, beat = self.provers[sender], Beat(self.epoch, self.now - age, self.drive.gate.floor)
+        prover, beat = self.provers[sender], Beat(self.epoch, self.now - age, self.drive.admission.gate.floor)
         if act:
             prover.act(beat)
         moving = command not in (REST, Pwm(375, 370))
@@ -56,10 +57,10 @@ class Robot:
         return step
 
     def stop(self, identity: int) -> bool:
-        return self.drive.stop(Stop(engaged=True, id=identity, by="ann", why=""), self.now)
+        return self.drive.admission.stop(Stop(engaged=True, id=identity, by="ann", why=""), self.now)
 
     def release(self, identity: int) -> bool:
-        return self.drive.stop(Stop(engaged=False, id=identity, by="ann", why=""), self.now)
+        return self.drive.admission.stop(Stop(engaged=False, id=identity, by="ann", why=""), self.now)
 
     def step(self) -> Step:
         return self.drive.step(self.now)

@@ -1,8 +1,8 @@
 import pytest
 
 from zteleop.control.command import neutral, to_command
-from zteleop.control.drive import DriveSettings
 from zteleop.control.report import to_vehicle
+from zteleop.control.settings import DriveSettings
 from zteleop.errors import MessageError
 from zteleop.messages import (
     Header,

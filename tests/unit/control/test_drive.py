@@ -6,13 +6,14 @@ from hypothesis import strategies as st
 from unit.control.robot import FORWARD, NEUTRAL, REST, TICK_US, Robot, moves
 
 from zteleop.control.cap import Strain
-from zteleop.control.drive import DriveSettings, Step
+from zteleop.control.drive import Step
 from zteleop.control.gate import Refusal
 from zteleop.control.mixer import Differential
 from zteleop.control.mux import Source
 from zteleop.control.proof import LAPSE, Prover
 from zteleop.control.report import status
 from zteleop.control.servo import Servo
+from zteleop.control.settings import DriveSettings
 from zteleop.messages import Pwm, Stop, Twist
 
 
@@ -96,9 +97,9 @@ def test_a_restart_forgets_a_held_key_until_it_is_let_go() -> None:
     robot = Robot()
     robot.hold(FORWARD, 0.5)
     robot.now += 0.5
-    assert robot.drive.late(robot.now)
+    assert robot.drive.admission.late(robot.now)
     robot.epoch = 2
-    robot.drive.restart(2, robot.now)
+    robot.drive.admission.restart(2, robot.now)
     assert not moves(robot.hold(FORWARD, 1.0))
     robot.say(REST)
     assert moves(robot.hold(FORWARD, 0.2))
@@ -166,9 +167,9 @@ def rested(robot: Robot, state: str, on: bool) -> None:
     if state == "stopped":
         (robot.stop if on else robot.release)(7)
     elif on:
-        robot.drive.hold("reason", state, "because", robot.now)
+        robot.drive.admission.hold("reason", state, "because", robot.now)
     else:
-        robot.drive.free("reason", robot.now)
+        robot.drive.admission.free("reason", robot.now)
 
 
 @pytest.mark.parametrize("state", ["stopped", "fault", "starting"])
@@ -197,7 +198,7 @@ def test_a_key_held_through_a_rest_moves_nothing_until_it_is_let_go_and_pressed_
 def test_two_stops_hold_until_both_are_released() -> None:
     robot = Robot()
     for identity, by in ((7, "ann"), (8, "bob")):
-        robot.drive.stop(Stop(engaged=True, id=identity, by=by, why=""), robot.now)
+        robot.drive.admission.stop(Stop(engaged=True, id=identity, by=by, why=""), robot.now)
     assert robot.release(8)
     assert robot.step().state == "stopped"
     assert "bob" not in robot.step().why
@@ -207,26 +208,26 @@ def test_two_stops_hold_until_both_are_released() -> None:
 
 def test_a_key_pressed_while_at_rest_moves_nothing_afterwards() -> None:
     robot = Robot()
-    robot.drive.hold("chip", "fault", "", robot.now)
+    robot.drive.admission.hold("chip", "fault", "", robot.now)
     robot.say(FORWARD)
     robot.wait(0.04)
-    robot.drive.free("chip", robot.now)
+    robot.drive.admission.free("chip", robot.now)
     assert not moves(robot.hold(FORWARD, 0.5))
 
 
 def test_the_robot_is_free_when_every_reason_is_gone() -> None:
     robot = Robot()
-    robot.drive.hold("esc", "starting", "the ESC arms", robot.now)
+    robot.drive.admission.hold("esc", "starting", "the ESC arms", robot.now)
     assert robot.step().state == "starting"
-    robot.drive.hold("chip", "fault", "the chip is silent", robot.now)
+    robot.drive.admission.hold("chip", "fault", "the chip is silent", robot.now)
     assert (robot.step().state, robot.step().why) == ("fault", "the chip is silent")
     robot.stop(7)
     assert robot.step().state == "fault", "a stop hides no fault"
-    robot.drive.free("chip", robot.now)
+    robot.drive.admission.free("chip", robot.now)
     assert robot.step().state == "stopped"
     robot.release(7)
     assert (robot.step().state, robot.step().why) == ("starting", "the ESC arms")
-    robot.drive.free("esc", robot.now)
+    robot.drive.admission.free("esc", robot.now)
     assert robot.step().state == "idle"
     robot.wait(0.02)
     assert moves(robot.hold(FORWARD, 0.2))
@@ -235,7 +236,7 @@ def test_the_robot_is_free_when_every_reason_is_gone() -> None:
 def test_freeing_what_was_not_held_disturbs_nobody() -> None:
     robot = Robot()
     robot.hold(FORWARD, 0.2)
-    robot.drive.free("chip", robot.now)
+    robot.drive.admission.free("chip", robot.now)
     assert moves(robot.hold(FORWARD, 0.2))
 
 
@@ -252,7 +253,7 @@ def test_an_old_stop_that_is_heard_again_stops_nobody() -> None:
 def test_a_sender_whose_process_is_gone_lets_go_at_once() -> None:
     robot = Robot()
     robot.hold(FORWARD, 0.2)
-    robot.drive.withdraw(1, robot.now)
+    robot.drive.admission.withdraw(1, robot.now)
     step = robot.step()
     assert (step.state, step.why, moves(step)) == ("link lost", "keyboard is gone", False)
     assert robot.say(FORWARD, "b") is None  # and somebody else may take over
@@ -264,7 +265,7 @@ def test_a_sender_whose_process_is_gone_lets_go_at_once() -> None:
 def test_the_departure_of_somebody_else_changes_nothing() -> None:
     robot = Robot()
     robot.hold(FORWARD, 0.2)
-    robot.drive.withdraw(2, robot.now)
+    robot.drive.admission.withdraw(2, robot.now)
     assert moves(robot.step())
 
 
@@ -280,14 +281,20 @@ def test_refusals_are_counted_by_source_while_their_reason_lasts() -> None:
     for _ in range(3):
         robot.drive.receive("web", FORWARD, None, robot.now)
         robot.wait(0.1)
-    refused = robot.drive.refusals["web"]
+    refusals = robot.drive.admission.refusals
+    refused = refusals.recent(robot.now, 1.0)["web"]
     assert (refused.why, refused.times, refused.since) == (Refusal.UNPROVEN, 3, first)
     assert refused.at == pytest.approx(first + 0.2)
-    robot.drive.hold("chip", "fault", "the chip is silent", robot.now)
+    robot.drive.admission.hold("chip", "fault", "the chip is silent", robot.now)
     robot.say(FORWARD, source="web")
     assert robot.step().why == "the chip is silent"  # which is what matters
-    assert robot.drive.refusals["web"] == (Refusal.AT_REST, robot.now, robot.now, 1)
-    assert (robot.drive.refused, set(robot.drive.refusals)) == (4, {"web"})
+    assert robot.drive.admission.refusals.recent(robot.now, 1.0)["web"] == (
+        Refusal.AT_REST,
+        robot.now,
+        robot.now,
+        1,
+    )
+    assert robot.drive.admission.refusals.count == 4
 
 
 def test_the_reason_of_a_refusal_is_told_for_a_second() -> None:
@@ -302,7 +309,7 @@ def test_a_foreign_sender_does_not_drive_on_when_the_robot_was_stopped_for_a_whi
     robot.wait(LAPSE + 0.1)
     assert robot.drive.receive("nav", FORWARD, None, robot.now) is None
     robot.now += 3.0
-    robot.drive.restart(2, robot.now)
+    robot.drive.admission.restart(2, robot.now)
     robot.wait(0.02)
     assert robot.drive.receive("nav", FORWARD, None, robot.now) is Refusal.NOT_FROM_NEUTRAL
     assert robot.drive.receive("nav", REST, None, robot.now) is None
@@ -426,7 +433,7 @@ def test_a_sender_that_cannot_prove_its_age_counts_as_late_as_one_may_be() -> No
 def test_a_strain_slows_down_whoever_drives_and_turns_as_before() -> None:
     robot = Robot()
     free = robot.hold(FULL, 2.0)
-    robot.drive.cap.bear(Strain(0.5, "undervoltage"))
+    robot.drive.movement.cap.bear(Strain(0.5, "undervoltage"))
     step = robot.hold(FULL, 2.0)
     assert speed_of(robot, step) == pytest.approx(1.5)
     assert step.wheels["steering"] == pytest.approx(free.wheels["steering"])
@@ -435,7 +442,7 @@ def test_a_strain_slows_down_whoever_drives_and_turns_as_before() -> None:
 def test_standing_wheels_turn_under_any_cap() -> None:
     robot = Robot()
     robot.wait(1.0)
-    robot.drive.cap.bear(Strain(0.25, "heat"))
+    robot.drive.movement.cap.bear(Strain(0.25, "heat"))
     step = robot.hold(Pwm(460, 370), 1.0, age=0.29)
     assert step.wheels == {"throttle": pytest.approx(0.0), "steering": pytest.approx(1.0, abs=0.01)}
 

@@ -8,12 +8,12 @@ from hypothesis import strategies as st
 from unit.control.robot import FORWARD, REST, Robot
 
 from zteleop.control.cap import CapSettings, Strain
-from zteleop.control.drive import DriveSettings
 from zteleop.control.explain import layers
 from zteleop.control.limiter import Limits
 from zteleop.control.mixer import Differential
 from zteleop.control.mux import Source
 from zteleop.control.servo import Servo
+from zteleop.control.settings import DriveSettings
 from zteleop.messages import Confirmed, Pwm, Twist
 
 TANK = DriveSettings(mixer=Differential(), servos={"left": Servo(channel=0), "right": Servo(channel=1)})
@@ -100,7 +100,7 @@ def test_a_stopping_distance_is_named() -> None:
 
 def test_a_strain_is_told_even_at_rest() -> None:
     robot = Robot()
-    robot.drive.cap.bear(Strain(0.5, "the Pi is hot"))
+    robot.drive.movement.cap.bear(Strain(0.5, "the Pi is hot"))
     assert says(robot)["cap"] == "1.5 of 3 m/s: the Pi is hot"
     robot.hold(Twist.planar(3.0), 2.0)
     assert says(robot)["cap"] == "1.5 of 3 m/s: the Pi is hot"
@@ -150,7 +150,7 @@ def test_refusals_are_told_with_how_often_and_since_when_and_then_forgotten() ->
 
 def test_a_reason_to_rest_is_told_with_its_age() -> None:
     robot = Robot()
-    robot.drive.hold("chip", "fault", "the chip is silent", robot.now)
+    robot.drive.admission.hold("chip", "fault", "the chip is silent", robot.now)
     robot.wait(2.0)
     assert says(robot)["rest"] == "fault for 2.0 s: the chip is silent"
     robot.stop(7)

@@ -7,10 +7,11 @@ with the first command whose beat and act are later than the end. Longer, and it
 import pytest
 from unit.control.robot import FORWARD, REST, TICK_US, Robot, moves
 
-from zteleop.control.drive import Drive, DriveSettings
+from zteleop.control.drive import Drive
 from zteleop.control.gate import Refusal
 from zteleop.control.mux import Source
 from zteleop.control.proof import NEVER, Prover
+from zteleop.control.settings import DriveSettings
 from zteleop.control.standing import NOBODY, go_on, stand
 from zteleop.messages import Beat
 
@@ -37,16 +38,16 @@ def begins_anew(robot: Robot, sender: str = "a") -> bool:
 
 def deaf_for(robot: Robot, seconds: float, **how: object) -> None:
     """Let the watchdog not hear the robot, while somebody goes on."""
-    robot.drive.pause("deaf", "", robot.now)
+    robot.drive.admission.pause("deaf", "", robot.now)
     assert not moves(robot.hold(FORWARD, seconds, **how))
-    robot.drive.resume("deaf", "it was deaf", robot.now)
+    robot.drive.admission.resume("deaf", "it was deaf", robot.now)
     robot.wait(STEP)
 
 
 def stand_still(robot: Robot, seconds: float) -> None:
     robot.now += seconds
-    assert robot.drive.late(robot.now) == pytest.approx(seconds)
-    robot.drive.interrupt("it stood still", robot.now, robot.drive.settings.deadlines.stand_still)
+    assert robot.drive.admission.late(robot.now) == pytest.approx(seconds)
+    robot.drive.admission.interrupt("it stood still", robot.now, robot.drive.settings.deadlines.stand_still)
 
 
 def test_a_link_lost_for_less_than_two_seconds(robot: Robot) -> None:
@@ -116,9 +117,9 @@ def test_almost_two_seconds_and_then_a_beat_and_a_round_trip(robot: Robot) -> No
 def test_two_losses_that_touch_are_one(robot: Robot) -> None:
     robot.hold(FORWARD, 0.5)
     robot.wait(1.5)
-    robot.drive.pause("deaf", "", robot.now)
+    robot.drive.admission.pause("deaf", "", robot.now)
     robot.hold(FORWARD, 0.6)
-    robot.drive.resume("deaf", "it was deaf", robot.now)
+    robot.drive.admission.resume("deaf", "it was deaf", robot.now)
     assert not drives_on(robot)
     assert begins_anew(robot)
 
@@ -140,11 +141,11 @@ def test_two_losses_with_driving_between_are_two(robot: Robot) -> None:
 
 def test_a_stop_pressed_while_the_robot_was_cut_off_with_another_holding_a_key(robot: Robot) -> None:
     robot.hold(FORWARD, 0.5)
-    robot.drive.pause("deaf", "", robot.now)
+    robot.drive.admission.pause("deaf", "", robot.now)
     robot.hold(FORWARD, 0.7)
     robot.stop(7)
     robot.hold(FORWARD, 0.5)
-    robot.drive.resume("deaf", "it was deaf", robot.now)
+    robot.drive.admission.resume("deaf", "it was deaf", robot.now)
     assert not drives_on(robot)
     robot.release(7)
     assert not drives_on(robot)
@@ -166,25 +167,25 @@ def test_of_two_operators_the_one_who_drove_keeps_the_place(robot: Robot) -> Non
 def test_of_two_operators_the_one_who_waits_has_it_when_the_other_is_gone(robot: Robot) -> None:
     robot.hold(FORWARD, 0.5, sender="a")
     assert robot.say(FORWARD, "b") is Refusal.HELD
-    robot.drive.withdraw(1, robot.now)
+    robot.drive.admission.withdraw(1, robot.now)
     assert not drives_on(robot, sender="b")
     assert begins_anew(robot, "b")
 
 
 def test_whoever_begins_during_an_interruption_begins_too_early(robot: Robot) -> None:
-    robot.drive.pause("deaf", "", robot.now)
+    robot.drive.admission.pause("deaf", "", robot.now)
     robot.hold(FORWARD, 1.0)
-    robot.drive.resume("deaf", "it was deaf", robot.now)
+    robot.drive.admission.resume("deaf", "it was deaf", robot.now)
     assert not drives_on(robot)
     assert begins_anew(robot)
 
 
 def test_letting_go_during_an_interruption_gives_the_right_away(robot: Robot) -> None:
     robot.hold(FORWARD, 0.5)
-    robot.drive.pause("deaf", "", robot.now)
+    robot.drive.admission.pause("deaf", "", robot.now)
     robot.say(REST)
     robot.hold(FORWARD, 0.5)
-    robot.drive.resume("deaf", "it was deaf", robot.now)
+    robot.drive.admission.resume("deaf", "it was deaf", robot.now)
     assert not drives_on(robot)
     assert begins_anew(robot)
 
@@ -287,8 +288,8 @@ def test_a_claim_that_is_over_is_not_kept_by_an_idle_operator(robot: Robot) -> N
     robot.hold(FORWARD, 0.5, act=False)
     robot.wait(5.0)
     robot.hold(FORWARD, 0.3, act=False)
-    robot.drive.pause("deaf", "", robot.now)
-    robot.drive.resume("deaf", "it was deaf", robot.now)
+    robot.drive.admission.pause("deaf", "", robot.now)
+    robot.drive.admission.resume("deaf", "it was deaf", robot.now)
     robot.wait(STEP)
     assert not drives_on(robot)
     assert begins_anew(robot)
@@ -309,8 +310,8 @@ def test_a_planner_drives_on_under_another_actuator_and_one_that_was_too_late_pa
 def test_a_slow_planner_that_never_paused_does_not_begin_by_being_refused() -> None:
     """What arrives too early after the end is refused, and still no pause."""
     robot = planned(PLANNER)
-    robot.drive.pause("deaf", "", robot.now)
-    robot.drive.resume("deaf", "it was deaf", robot.now)
+    robot.drive.admission.pause("deaf", "", robot.now)
+    robot.drive.admission.resume("deaf", "it was deaf", robot.now)
     robot.wait(0.26)
     assert plan(robot) is Refusal.INTERRUPTED
     robot.release(7)
@@ -337,9 +338,9 @@ def planned(source: Source) -> Robot:
 
 def test_a_dead_planners_queued_command_after_an_interruption_moves_nothing() -> None:
     robot = planned(PLANNER)
-    robot.drive.pause("deaf", "", robot.now)
+    robot.drive.admission.pause("deaf", "", robot.now)
     robot.wait(1.5)
-    robot.drive.resume("deaf", "it was deaf", robot.now)
+    robot.drive.admission.resume("deaf", "it was deaf", robot.now)
     robot.wait(0.1)
     assert plan(robot) is Refusal.INTERRUPTED
     assert not moves(robot.wait(0.3))
@@ -347,9 +348,9 @@ def test_a_dead_planners_queued_command_after_an_interruption_moves_nothing() ->
 
 def test_a_planner_that_lives_drives_on_once_nothing_old_can_arrive() -> None:
     robot = planned(PLANNER)
-    robot.drive.pause("deaf", "", robot.now)
+    robot.drive.admission.pause("deaf", "", robot.now)
     robot.wait(1.0)
-    robot.drive.resume("deaf", "it was deaf", robot.now)
+    robot.drive.admission.resume("deaf", "it was deaf", robot.now)
     moved = []
     for _ in range(10):
         plan(robot)

@@ -4,11 +4,12 @@ import pytest
 from unit.control.robot import FORWARD, NEUTRAL, REST, TICK_US, Robot, moves
 
 from zteleop.control.cap import Strain
-from zteleop.control.drive import Drive, DriveSettings, Step
+from zteleop.control.drive import Drive, Step
 from zteleop.control.gate import SENDERS, Refusal
 from zteleop.control.judge import GRACE, LOOKS, Judge
 from zteleop.control.mux import Source
 from zteleop.control.proof import LAPSE, Proof, Prover
+from zteleop.control.settings import DriveSettings
 from zteleop.control.standing import Standing
 from zteleop.messages import Beat, Pwm, Stop, Twist
 
@@ -34,7 +35,7 @@ class Watched(Robot):
         self.why: str | None = None
 
     def say(self, command: Twist | Pwm, sender="a", source="keyboard", act=True, age=0.0) -> Refusal | None:
-        prover, beat = self.provers[sender], Beat(self.epoch, self.now - age, self.drive.gate.floor)
+        prover, beat = self.provers[sender], Beat(self.epoch, self.now - age, self.drive.admission.gate.floor)
         if act:
             prover.act(beat)
         return self.tell(source, command, prover.prove(beat, command != REST, self.now))
@@ -89,8 +90,8 @@ def test_who_drives_moves_and_may(robot: Watched) -> None:
         lambda robot: robot.wait(0.6),
         lambda robot: robot.hold(FORWARD, 6.0, act=False),
         lambda robot: robot.rest(True),
-        lambda robot: robot.drive.hold("chip", "fault", "", robot.now),
-        lambda robot: robot.drive.withdraw(1, robot.now),
+        lambda robot: robot.drive.admission.hold("chip", "fault", "", robot.now),
+        lambda robot: robot.drive.admission.withdraw(1, robot.now),
     ],
     ids=["let go", "silence", "idle operator", "stop", "fault", "departure"],
 )
@@ -99,7 +100,7 @@ def test_it_agrees_with_a_drive_that_comes_to_rest_and_drives_again(robot: Watch
     end(robot)
     assert not moves(robot.wait(1.0))
     robot.say(REST)
-    robot.drive.free("chip", robot.now)
+    robot.drive.admission.free("chip", robot.now)
     robot.rest(False)
     robot.wait(0.1)
     assert moves(robot.hold(FORWARD, 1.0))
@@ -248,7 +249,7 @@ def test_a_second_sender_may_take_over_a_silent_ones_source(robot: Watched, paus
 
 def test_a_second_sender_may_take_over_from_one_that_is_gone(robot: Watched) -> None:
     robot.hold(FORWARD, 0.3)
-    robot.drive.withdraw(1, robot.now)
+    robot.drive.admission.withdraw(1, robot.now)
     assert moves(robot.hold(FORWARD, 1.0, sender="b"))
     assert robot.why is None
 
@@ -344,7 +345,7 @@ def test_its_memory_is_bounded_and_keeps_who_drives(robot: Watched) -> None:
         robot.say(FORWARD)
         now = robot.now
         robot.tell("program", FORWARD, Proof(sender, 1, 1, now, now, now))
-        claims = robot.judge._drive.mux.claims
+        claims = robot.judge._admission.mux.claims
         assert len(claims) <= SENDERS
         assert any(claim.sender == 1 for claim in claims)
         robot.wait(0.02)
@@ -358,7 +359,7 @@ def test_half_a_tick_is_rest_and_an_output_that_is_off_too(robot: Watched) -> No
 
 def test_a_speed_cap_gives_the_judge_nothing_to_blame(robot: Watched) -> None:
     robot.wait(1.0)
-    robot.drive.cap.bear(Strain(0.5, "undervoltage"))
+    robot.drive.movement.cap.bear(Strain(0.5, "undervoltage"))
     for age in (0.29, 0.0):
         step = robot.hold(Twist.planar(3.0), 3.0, age=age)
         assert step.bound.by == "strain"
@@ -371,9 +372,9 @@ def test_a_judge_that_looks_late_does_not_blame_who_began_after_the_release() ->
     settings = DriveSettings()
     drive, judge = Drive(settings, TICK_US, 1, 0.0), Judge(settings, TICK_US, 0.0)
     judge.hear_report(begun(1, 0.0))
-    drive.stop(Stop(engaged=True, id=5, by="ann", why=""), 1.0)
+    drive.admission.stop(Stop(engaged=True, id=5, by="ann", why=""), 1.0)
     judge.rest(True, 2.0)
-    drive.stop(Stop(engaged=False, id=5, by="ann", why=""), 2.01)
+    drive.admission.stop(Stop(engaged=False, id=5, by="ann", why=""), 2.01)
     prover, waiting = Prover(1), []
     for now in (2.06 + 0.02 * number for number in range(60)):
         prover.act(Beat(1, now, 0.0))

@@ -3,9 +3,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from zteleop.control import curvature
-from zteleop.control.drive import DONKEYCAR
 from zteleop.control.limiter import Limits, TwistLimiter, WheelLimiter
 from zteleop.control.mixer import Ackermann, Differential
+from zteleop.control.settings import DONKEYCAR
 from zteleop.messages import Twist
 
 CAR, TANK = Ackermann(), Differential()

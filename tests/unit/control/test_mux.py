@@ -1,4 +1,4 @@
-from zteleop.control.mux import Claim, Mux, Source
+from zteleop.control.mux import Claim, Mux, Silences, Source
 from zteleop.messages import Twist
 
 SOURCES = {"web": Source(priority=100), "keyboard": Source(priority=90), "program": Source(50, silence=0.5)}
@@ -12,7 +12,7 @@ def claim(
 
 
 def mux() -> Mux:
-    return Mux(SOURCES, operator_silence=5.0)
+    return Mux(SOURCES, Silences(SOURCES, 5.0), link_loss=2.0)
 
 
 def test_nobody_drives_at_first() -> None:
@@ -68,11 +68,11 @@ def test_whoever_waited_begins_anew_although_he_acted_all_along() -> None:
 def test_what_was_said_before_an_interruption_ended_is_not_obeyed_and_keeps_its_place() -> None:
     it = mux()
     it.offer(claim("keyboard", 1.0, sender=1))
-    it.interrupt(1.2)
-    assert it.select(1.2) is None
+    ended = 1.2
+    assert it.select(1.2, ended) is None
     assert not it.offer(claim("keyboard", 1.25, sender=2))
     it.offer(claim("keyboard", 1.3, sender=1))
-    assert it.select(1.3)
+    assert it.select(1.3, ended)
 
 
 def test_letting_go_frees_only_ones_own() -> None:

@@ -1,11 +1,12 @@
 import pytest
 from unit.control.robot import FORWARD, TICK_US, Robot
 
-from zteleop.control.drive import DriveSettings, Step
+from zteleop.control.drive import Step
 from zteleop.control.limiter import Limits
 from zteleop.control.mixer import Differential
 from zteleop.control.report import status, to_vehicle
 from zteleop.control.servo import Servo
+from zteleop.control.settings import DriveSettings
 from zteleop.messages import DriveStatus, Pwm, Twist
 
 

@@ -2,8 +2,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from zteleop.control.drive import DONKEYCAR
 from zteleop.control.servo import Servo
+from zteleop.control.settings import DONKEYCAR
 
 SERVOS = [
     Servo(channel=0),

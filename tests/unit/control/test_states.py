@@ -17,10 +17,11 @@ from hypothesis import strategies as st
 from unit.control.robot import FORWARD, REST, Robot, moves
 from unit.control.world import ACTS, Sabotage, World, walk
 
-from zteleop.control.drive import Drive, DriveSettings
+from zteleop.control.drive import Drive
 from zteleop.control.gate import Gate, Refusal
 from zteleop.control.limiter import Limits
 from zteleop.control.proof import NEVER, Proof
+from zteleop.control.settings import DriveSettings
 from zteleop.messages import State, Stop
 
 # A table of every state and what each event makes of it.
@@ -43,16 +44,16 @@ def act_no_more(robot: Robot) -> None:
 def pause(robot: Robot) -> None:
     """Stop the robot's own process for longer than a claim may outlive."""
     robot.now += 0.6
-    assert robot.drive.late(robot.now)
+    assert robot.drive.admission.late(robot.now)
     robot.epoch += 1
-    robot.drive.restart(robot.epoch, robot.now)
+    robot.drive.admission.restart(robot.epoch, robot.now)
 
 
 def hiccup(robot: Robot) -> None:
     """Stop the robot's own process for a moment."""
     robot.now += 0.3
-    assert robot.drive.late(robot.now)
-    robot.drive.interrupt("it stood still", robot.now, 0.5)
+    assert robot.drive.admission.late(robot.now)
+    robot.drive.admission.interrupt("it stood still", robot.now, 0.5)
 
 
 def act_again(robot: Robot) -> None:
@@ -62,11 +63,11 @@ def act_again(robot: Robot) -> None:
 
 
 def hold(state: State, robot: Robot) -> None:
-    robot.drive.hold(state, state, f"{state} for a reason", robot.now)
+    robot.drive.admission.hold(state, state, f"{state} for a reason", robot.now)
 
 
 def free(state: State, robot: Robot) -> None:
-    robot.drive.free(state, robot.now)
+    robot.drive.admission.free(state, robot.now)
 
 
 EVENTS: dict[str, Callable[[Robot], object]] = {
@@ -77,7 +78,7 @@ EVENTS: dict[str, Callable[[Robot], object]] = {
     "let go": lambda robot: robot.say(REST),
     "silence": fall_silent,
     "act no more": act_no_more,
-    "depart": lambda robot: robot.drive.withdraw(1, robot.now),
+    "depart": lambda robot: robot.drive.admission.withdraw(1, robot.now),
     "stop": lambda robot: robot.stop(7),
     "release": lambda robot: robot.release(7),
     "release another": lambda robot: robot.release(8),
@@ -217,37 +218,39 @@ def test_a_defect_is_found_among_any_acts() -> None:
 
 def lenient(*refusals: Refusal, drive: Drive) -> None:
     """Let pass what the gate refuses for these reasons."""
-    judge = drive.gate.judge
+    judge = drive.admission.gate.judge
 
     def pass_by(proof: Proof | None, moving: bool, now: float, silence: float) -> Refusal | None:
         refusal = judge(proof, moving, now, silence)
         return None if refusal in refusals else refusal
 
-    drive.gate.judge = pass_by
+    drive.admission.gate.judge = pass_by
 
 
 def any_epoch(drive: Drive) -> None:
-    judge = drive.gate.judge
-    drive.gate.judge = lambda proof, *rest: judge(proof and proof._replace(epoch=drive.gate.epoch), *rest)
+    judge = drive.admission.gate.judge
+    drive.admission.gate.judge = lambda proof, *rest: judge(
+        proof and proof._replace(epoch=drive.admission.gate.epoch), *rest
+    )
 
 
 def replays(drive: Drive) -> None:
-    judge = drive.gate.judge
+    judge = drive.admission.gate.judge
 
     def forget(proof: Proof | None, *rest: float) -> Refusal | None:
-        if proof and (seen := drive.gate._senders.get(proof.sender)):
+        if proof and (seen := drive.admission.gate._senders.get(proof.sender)):
             seen.seq, seen.beat = -1, NEVER
         return judge(proof, *rest)
 
-    drive.gate.judge = forget
+    drive.admission.gate.judge = forget
 
 
 def never_silent(drive: Drive) -> None:
-    drive.mux.silent = lambda claim, now: False
+    drive.admission.silences.silent = lambda claim, now: False
 
 
 def never_idle(drive: Drive) -> None:
-    drive.mux.idle = lambda claim, now: False
+    drive.admission.silences.idle = lambda claim, now: False
 
 
 def nobody_must_act(drive: Drive) -> None:
@@ -256,41 +259,42 @@ def nobody_must_act(drive: Drive) -> None:
 
 
 def free_without_a_floor(drive: Drive) -> None:
-    drive.gate.begin_after = lambda now, why: None
+    drive.admission.gate.begin_after = lambda now, why: None
 
 
 def any_release(drive: Drive) -> None:
-    obey = drive.latch.obey
+    obey = drive.admission.latch.obey
 
     def forget(said: Stop) -> bool:
-        if said.engaged or not drive.latch.stops:
+        if said.engaged or not drive.admission.latch.stops:
             return obey(said)
-        drive.latch.forget([stop.id for stop in drive.latch.stops])
+        drive.admission.latch.forget([stop.id for stop in drive.admission.latch.stops])
         return True
 
-    drive.latch.obey = forget
+    drive.admission.latch.obey = forget
 
 
 def deaf_to_stops(drive: Drive) -> None:
-    drive.stop = lambda said, now: False
+    drive.admission.stop = lambda said, now: False
 
 
 def no_long_loss(drive: Drive) -> None:
-    drive.gate = Gate(drive.gate._deadlines, drive.gate.epoch, drive._since)
-    drive.gate._measure_loss = lambda *of_a_sender: None
+    gate, since = drive.admission.gate, drive.admission.foreign._since
+    drive.admission.gate = Gate(gate._deadlines, gate.epoch, since)
+    drive.admission.gate._measure_loss = lambda *of_a_sender: None
 
 
 def rights_for_all(drive: Drive) -> None:
-    interrupt = drive.gate.interrupt
-    drive.gate.interrupt = lambda now, limit: interrupt(now, float("inf"))
+    interrupt = drive.admission.gate.interrupt
+    drive.admission.gate.interrupt = lambda now, limit: interrupt(now, float("inf"))
 
 
 def no_interruption(drive: Drive) -> None:
-    drive.gate.interrupt = lambda now, limit: None
+    drive.admission.gate.interrupt = lambda now, limit: None
 
 
 def rights_outlive_a_release(drive: Drive) -> None:
-    gate = drive.gate
+    gate = drive.admission.gate
     gate._may_begin = lambda proof, seen: (
         proof.began <= proof.acted
         and (proof.began == seen.right or proof.began > max(seen.floor, gate._floor))
@@ -298,26 +302,26 @@ def rights_outlive_a_release(drive: Drive) -> None:
 
 
 def never_late(drive: Drive) -> None:
-    drive.late = lambda now: 0.0
+    drive.admission.late = lambda now: 0.0
 
 
 def claims_outlive_a_rest(drive: Drive) -> None:
-    drive.mux.clear = lambda: None
+    drive.admission.mux.clear = lambda: None
 
 
 def departures_unheard(drive: Drive) -> None:
-    drive.withdraw = lambda sender, now: None
+    drive.admission.withdraw = lambda sender, now: None
 
 
 def foreign_at_once(drive: Drive) -> None:
-    meet = drive._meet
+    meet = drive.admission.foreign._meet
 
     def meet_anew(source: str) -> object:
         prover = meet(source)
         prover._moving = False
         return prover
 
-    drive._meet = meet_anew
+    drive.admission.foreign._meet = meet_anew
 
 
 BEFORE_NEUTRAL = Refusal.NOT_FROM_NEUTRAL, Refusal.BEFORE_RELEASE, Refusal.BEFORE_REPAIR

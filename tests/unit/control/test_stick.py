@@ -1,10 +1,10 @@
 import pytest
 
 from zteleop.control import curvature
-from zteleop.control.drive import DriveSettings
 from zteleop.control.mixer import Ackermann, Differential
 from zteleop.control.report import to_vehicle
 from zteleop.control.servo import Servo
+from zteleop.control.settings import DriveSettings
 from zteleop.control.stick import Speeds, Stick, tightest, to_pwm, to_twist
 from zteleop.messages import Pwm
 

@@ -10,11 +10,12 @@ from heapq import heappop, heappush
 from random import Random
 from typing import NamedTuple
 
-from zteleop.control.drive import Drive, DriveSettings, Step
+from zteleop.control.drive import Drive, Step
 from zteleop.control.judge import Judge
 from zteleop.control.limiter import Limits
 from zteleop.control.mux import Source
 from zteleop.control.proof import NEVER, Proof, Prover
+from zteleop.control.settings import DriveSettings
 from zteleop.control.standing import go_on, stand
 from zteleop.messages import Beat, Pwm, State, Stop, Twist
 
@@ -262,7 +263,7 @@ class World:
         """Let a new drive know of the stops that are kept, and of no other."""
         self.stops.clear()
         for stop in self.in_force.values():
-            self.drive.stop(stop, self.now)
+            self.drive.admission.stop(stop, self.now)
             self.stops.append(stop.id)
             self.truth.hold("stop", "stopped")
 
@@ -320,12 +321,12 @@ class World:
             self._foreign = (self.now, True, NEVER)
         elif stood_still > LATE:
             self.truth.interrupt(self.now, STAND_STILL)
-        if (late := self.drive.late(self.now)) > STAND_STILL:
+        if (late := self.drive.admission.late(self.now)) > STAND_STILL:
             self.epoch += 1
-            self.drive.restart(self.epoch, self.now)
+            self.drive.admission.restart(self.epoch, self.now)
             self.judge.hear_report(stand(self.drive, self.truth.since))
         elif late:
-            self.drive.interrupt("it stood still", self.now, STAND_STILL)
+            self.drive.admission.interrupt("it stood still", self.now, STAND_STILL)
         self._stepped = self.now
 
     def _arrive(self, told: Told) -> None:
@@ -454,7 +455,7 @@ class World:
     def _leave(self, who: int) -> None:
         """Its process is gone; another may come in its place."""
         sender = self.senders[who]
-        self.drive.withdraw(sender.identity, self.now)
+        self.drive.admission.withdraw(sender.identity, self.now)
         self.truth.claims.pop(sender.identity, None)
         if self.random.random() < 0.5:
             self.senders[who] = self._sender(sender.source)
@@ -497,7 +498,7 @@ class World:
         known = kind == "old"
         identity = self.random.choice(self.stops) if known else self.random.getrandbits(53)
         said = Stop(engaged=True, id=identity, by=self.random.choice(("ann", "bob")), why="")
-        self.drive.stop(said, self.now)
+        self.drive.admission.stop(said, self.now)
         if not known:
             self.stops.append(identity)
             self.in_force[said.by] = said
@@ -513,7 +514,7 @@ class World:
             identity = self.stops[0]
         elif kind == "wrong":
             identity = self.random.getrandbits(53)
-        self.drive.stop(Stop(engaged=False, id=identity, by="", why=""), self.now)
+        self.drive.admission.stop(Stop(engaged=False, id=identity, by="", why=""), self.now)
         self.in_force = {by: stop for by, stop in self.in_force.items() if stop.id != identity}
         if in_force and not self.in_force:
             self.truth.free("stop", self.now)
@@ -528,19 +529,19 @@ class World:
 
     def _rest(self, reason: str, state: State, on: bool) -> None:
         if on:
-            self.drive.hold(reason, state, "", self.now)
+            self.drive.admission.hold(reason, state, "", self.now)
             self.truth.hold(reason, state)
         else:
-            self.drive.free(reason, self.now)
+            self.drive.admission.free(reason, self.now)
             self.truth.free(reason, self.now)
 
     def _deaf(self, on: bool) -> None:
         """The watchdog hears the robot on the bus, or does not."""
         if on:
-            self.drive.pause("deaf", "", self.now)
+            self.drive.admission.pause("deaf", "", self.now)
             self.truth.holds["deaf"] = "link lost"
         else:
-            self.drive.resume("deaf", "it was deaf", self.now)
+            self.drive.admission.resume("deaf", "it was deaf", self.now)
             if self.truth.holds.pop("deaf", None):
                 self.truth.interrupt(self.now, LINK_LOSS)
 
@@ -642,7 +643,7 @@ INTERRUPTIONS = (
 def _come_back(world: World) -> None:
     """Interrupt somebody who drives and acts all along, for a moment; nothing else happens meanwhile."""
     who = _drive_well(world)
-    state, driver = world.do("carry_on", 0.06).state, world.drive.driver
+    state, driver = world.do("carry_on", 0.06).state, world.drive.admission.driver
     if state != "driving" or not driver or driver.sender != world.senders[who].identity:
         return
     kind, seconds = world.random.choice(INTERRUPTIONS)

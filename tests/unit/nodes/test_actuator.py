@@ -5,9 +5,9 @@ from unit.bus.fakes import Clock
 from unit.nodes.fakes import Chip, Node, Shelf
 
 from zteleop.bus.subscription import Received
-from zteleop.control.drive import SOURCES, DriveSettings
 from zteleop.control.mux import Source
 from zteleop.control.proof import Proof, Prover
+from zteleop.control.settings import SOURCES, DriveSettings
 from zteleop.control.standing import NOBODY, Standing
 from zteleop.errors import DeviceError
 from zteleop.machine.health import LOOK_EVERY, Health

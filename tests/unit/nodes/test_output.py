@@ -5,8 +5,9 @@ import pytest
 from unit.bus.fakes import Clock
 from unit.nodes.fakes import Chip
 
-from zteleop.control.drive import Drive, DriveSettings
+from zteleop.control.drive import Drive
 from zteleop.control.proof import Prover
+from zteleop.control.settings import DriveSettings
 from zteleop.errors import DeviceError
 from zteleop.messages import Beat, Pwm, Stop
 from zteleop.nodes import output as module
@@ -79,7 +80,7 @@ def test_a_chip_that_does_not_come_up_is_an_error() -> None:
 def test_neutral_is_held_while_the_esc_arms_after_every_start() -> None:
     bench = Bench(arming=2.0)
     assert bench.step(1.99) == "starting"
-    assert bench.drive.holds.strongest.why == "neutral for 2 s while the ESC arms"
+    assert bench.drive.admission.holds.strongest.why == "neutral for 2 s while the ESC arms"
     bench.push()
     assert bench.step(0.02) == "idle"
     bench.push()
@@ -105,7 +106,7 @@ def test_a_fault_is_said_in_words(bench: Bench) -> None:
     for _ in range(FAILED_STEPS):
         bench.step()
     assert bench.said == ["the chip is at fault: the chip does not take a write"]
-    assert bench.drive.holds.strongest.why == "the chip does not take a write"
+    assert bench.drive.admission.holds.strongest.why == "the chip does not take a write"
 
 
 def test_a_chip_that_forgot_is_a_fault_although_writes_succeed(bench: Bench) -> None:
@@ -182,7 +183,7 @@ def test_the_newest_reason_of_a_fault_is_shown(bench: Bench) -> None:
     bench.chip.broken |= {"write", "start"}
     for _ in range(FAILED_STEPS + 1):
         bench.step()
-    assert bench.drive.holds.strongest.why == "the chip does not take a start"
+    assert bench.drive.admission.holds.strongest.why == "the chip does not take a start"
 
 
 def test_repaired_it_is_at_neutral_and_what_was_held_moves_nothing(bench: Bench) -> None:
@@ -235,7 +236,7 @@ def test_neutral_that_is_not_taken_at_the_end_is_an_error(bench: Bench) -> None:
 
 
 def stop(bench: Bench) -> None:
-    bench.drive.stop(Stop(engaged=True, id=7, by="ann@desk", why=""), bench.now)
+    bench.drive.admission.stop(Stop(engaged=True, id=7, by="ann@desk", why=""), bench.now)
     bench.step()
     bench.output.confirm()
 
@@ -264,7 +265,7 @@ def test_a_stop_is_confirmed_by_what_is_read_back(bench: Bench) -> None:
     bench.step()
     bench.output.check(bench.now)
     assert bench.output.evidence.confirmed == "read"
-    bench.drive.stop(Stop(engaged=False, id=7, by="ann@desk", why=""), bench.now)
+    bench.drive.admission.stop(Stop(engaged=False, id=7, by="ann@desk", why=""), bench.now)
     assert bench.output.evidence.confirmed == ""
 
 
@@ -331,7 +332,7 @@ def test_a_slow_bus_is_a_fault_that_names_it_and_gets_neutral_and_nothing_else(s
     slow.push()
     slow.step()
     assert slow.step() == "fault"
-    assert slow.drive.holds.strongest.why.startswith(
+    assert slow.drive.admission.holds.strongest.why.startswith(
         "its bus is slow: a write took 60 ms, of at most 50; look at"
     )
     slow.chip.log.clear()
@@ -387,12 +388,12 @@ def test_channels_that_another_program_left_on_are_told_as_nothing_stops_them() 
 
 def test_what_was_read_back_before_is_no_word_of_the_next_stop(bench: Bench) -> None:
     stop(bench)
-    bench.drive.stop(Stop(engaged=False, id=7, by="ann@desk", why=""), bench.now)
+    bench.drive.admission.stop(Stop(engaged=False, id=7, by="ann@desk", why=""), bench.now)
     bench.step()
     bench.push()
     assert bench.step() == "driving"
     bench.chip.broken |= {"write", "read"}
-    bench.drive.stop(Stop(engaged=True, id=8, by="ann@desk", why=""), bench.now)
+    bench.drive.admission.stop(Stop(engaged=True, id=8, by="ann@desk", why=""), bench.now)
     bench.step()
     assert bench.output.evidence.confirmed == ""
 

@@ -2,10 +2,10 @@ import pytest
 from unit.nodes.fakes import Node, Shelf
 
 from zteleop.bus.subscription import Received
-from zteleop.control.drive import SOURCES, DriveSettings
 from zteleop.control.judge import GRACE, Judge
 from zteleop.control.mux import Source
 from zteleop.control.proof import Proof, Prover
+from zteleop.control.settings import SOURCES, DriveSettings
 from zteleop.control.standing import Standing
 from zteleop.machine.stop_file import UNREADABLE
 from zteleop.messages import Beat, Message, Pwm, Stop, String

@@ -4,7 +4,7 @@ import pytest
 from unit.bus.fakes import Clock
 from unit.nodes.fakes import Node
 
-from zteleop.control.drive import DriveSettings
+from zteleop.control.settings import DriveSettings
 from zteleop.drivers import open_driver
 from zteleop.nodes import simulator
 from zteleop.nodes.simulator import PERIOD, TELL_EVERY

@@ -2,10 +2,10 @@ import pytest
 from unit.bus.fakes import Clock
 from unit.nodes.fakes import Node
 
-from zteleop.control.drive import DriveSettings
 from zteleop.control.mixer import Differential
 from zteleop.control.report import to_vehicle
 from zteleop.control.servo import Servo
+from zteleop.control.settings import DriveSettings
 from zteleop.control.stick import Speeds, Stick
 from zteleop.errors import BusError, ConfigError
 from zteleop.messages import DriveStatus, Log, Odometry, Pwm, Stop, Twist, Vehicle

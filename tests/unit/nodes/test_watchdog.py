@@ -9,9 +9,9 @@ from unit.nodes.fakes import Chip, Node, Shelf
 
 from zteleop.bus.lane.wire import Answered, Asked
 from zteleop.bus.subscription import Received
-from zteleop.control.drive import DriveSettings
 from zteleop.control.judge import GRACE
 from zteleop.control.proof import Prover
+from zteleop.control.settings import DriveSettings
 from zteleop.control.standing import Standing
 from zteleop.errors import DeviceError
 from zteleop.machine import systemd

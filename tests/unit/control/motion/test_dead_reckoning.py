@@ -5,9 +5,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from unit.control.lockstep import CAR, PERIOD, TANK, Robot
 
-from zteleop.control.drive import DriveSettings
 from zteleop.control.motion.dead_reckoning import HEADING, DeadReckoning, OdometrySettings, X
 from zteleop.control.motion.pose import heading_of
+from zteleop.control.settings import DriveSettings
 from zteleop.messages import Time, Twist
 
 NO_LAG = OdometrySettings(motor_lag=0.0)

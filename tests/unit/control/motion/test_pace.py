@@ -3,11 +3,11 @@ from math import tan
 import msgspec
 import pytest
 
-from zteleop.control.drive import DriveSettings
 from zteleop.control.mixer import Differential
 from zteleop.control.motion import pace
 from zteleop.control.report import to_vehicle
 from zteleop.control.servo import Servo
+from zteleop.control.settings import DriveSettings
 from zteleop.messages import Twist, Vehicle
 
 MIXER = Differential(track=0.2, max_speed=0.4)

@@ -5,10 +5,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from unit.control.lockstep import CAR, TANK, Robot
 
-from zteleop.control.drive import DriveSettings
 from zteleop.control.motion.pace import least_radius
 from zteleop.control.motion.pose import Pose2D
 from zteleop.control.motion.pursuit import Pursuit
+from zteleop.control.settings import DriveSettings
 from zteleop.messages import Twist
 
 ANGLE = st.floats(-pi, pi)

@@ -3,10 +3,10 @@ from math import pi
 import pytest
 from unit.control.lockstep import CAR, TANK, Robot
 
-from zteleop.control.drive import DriveSettings
 from zteleop.control.motion import pace
 from zteleop.control.motion.pose import Pose2D
 from zteleop.control.motion.way import Leg, Way, square
+from zteleop.control.settings import DriveSettings
 from zteleop.messages import Twist
 
 START = Pose2D(1.0, -2.0, 2.5)

@@ -1,0 +1,223 @@
+"""What may move the robot: gate -> holds -> mux; and while nothing may, why."""
+
+from typing import NamedTuple
+
+from zteleop.control.calibration import Calibration
+from zteleop.control.foreign import Foreigners
+from zteleop.control.gate import Gate, Refusal
+from zteleop.control.hold import PAUSE, Holds
+from zteleop.control.mixer import Ackermann
+from zteleop.control.mux import HEARD_LATE, Claim, Claims, Mux, Silences
+from zteleop.control.proof import NEVER, Proof
+from zteleop.control.refusals import RefusedSources
+from zteleop.control.settings import DriveSettings
+from zteleop.control.stop import Latch, stopped_by
+from zteleop.messages import Beat, Pwm, State, Stop, Twist
+
+RECENT = 1.0
+"""s for which a refusal is told beside the reason to rest"""
+LACKS_AN_ACT = (Refusal.OPERATOR_IDLE, Refusal.INTERRUPTED)
+BEFORE: dict[State, Refusal] = {"fault": Refusal.BEFORE_REPAIR}
+"""Why whatever began before the end of a hold does not count, where it is not the start."""
+
+
+class Interruption(NamedTuple):
+    """The last one."""
+
+    ended: float = NEVER
+    why: str = ""
+
+
+class Verdict(NamedTuple):
+    """What becomes of a command."""
+
+    refusal: Refusal | None
+    """None where it counts"""
+    sender: int = 0
+    age: float | None = None
+    """s, of what moves; infinite where nobody can prove it"""
+
+
+class Admission:
+    """Judges commands, and keeps the claims and the reasons to rest; owns no clock and no chip."""
+
+    def __init__(
+        self,
+        settings: DriveSettings,
+        calibration: Calibration,
+        epoch: int,
+        now: float,
+        mux: Claims | None = None,
+        grace: float = 0.0,
+    ) -> None:
+        self._settings = settings
+        self._calibration = calibration
+        self._sources = settings.known_sources
+        self.gate = Gate(settings.deadlines, epoch, now, grace)
+        self.silences = Silences(self._sources, settings.deadlines.operator)
+        self.mux = mux or Mux(self._sources, self.silences, settings.deadlines.link_loss)
+        self.foreign = Foreigners(self._sources, grace, now)
+        self.holds = Holds()
+        self.latch = Latch()
+        self.refusals = RefusedSources()
+        self.interruption = Interruption()
+        self._gone: tuple[str, float] | None = None
+        self._drove: int | None = None
+        self._selected = now
+
+    @property
+    def driver(self) -> Claim | None:
+        """The claim that drove last, unless it was let go or has lost its place."""
+        return next((claim for claim in self.mux.claims if claim.sender == self._drove), None)
+
+    def beat(self, now: float) -> Beat:
+        """Return what commands must echo from now on."""
+        return Beat(self.gate.epoch, now, self.gate.floor)
+
+    def late(self, now: float) -> float:
+        """Return for how long the robot itself stood still since the last step, in seconds; else 0."""
+        gap = now - self._selected
+        return gap if gap > self._settings.deadlines.late_step else 0.0
+
+    def interrupt(self, why: str, now: float, limit: float) -> None:
+        """End an interruption: whoever counted in the last `limit` s goes on with the next act.
+
+        What was said before counts for nothing, and whoever was not interrupted must begin anew.
+        """
+        self.gate.interrupt(now, limit)
+        self.interruption = Interruption(now, why)
+        self._selected = now
+
+    def recall(self, source: str, sender: int, began: float, counted: float, now: float) -> None:
+        """Keep the place of a claim that drove under another drive of this epoch; `interrupt` must follow."""
+        if sender < 0:
+            sender = self.foreign.recall(source, self.beat(began), now)
+        self.gate.recall(sender, began, counted)
+        self.mux.offer(Claim(source, sender, Twist.zero(), counted, counted, 0, counted, began))
+        self._drove = sender
+
+    def restart(self, epoch: int, now: float) -> None:
+        """Forget every claim and begin a new epoch."""
+        self.gate.restart(epoch, now)
+        self.mux.clear()
+        self.foreign.restart(now)
+        self._gone = None
+        self._selected = now
+
+    def hold(self, reason: str, state: State, why: str, now: float) -> None:
+        """Keep the robot at rest for a reason until `free`; nothing softens it."""
+        self.holds.add(reason, state, why, now)
+        self.mux.clear()
+
+    def pause(self, reason: str, why: str, now: float) -> None:
+        """Keep the robot at rest until `resume`, by an interruption that lets claims keep their place."""
+        if reason not in self.holds:  # a stricter one stays what it is
+            self.holds.add(reason, PAUSE, why, now)
+
+    def resume(self, reason: str, why: str, now: float) -> None:
+        """End an interruption that began with `pause`, or with `hold` where nobody can have a right yet."""
+        if self.holds.drop(reason):
+            self.interrupt(why, now, self._settings.deadlines.link_loss)
+
+    def free(self, reason: str, now: float) -> None:
+        """Drop a reason to rest; whoever drives next must leave neutral after now."""
+        if hold := self.holds.drop(reason):
+            self.gate.begin_after(now, BEFORE.get(hold.state, Refusal.NOT_FROM_NEUTRAL))
+
+    def stop(self, said: Stop, now: float) -> bool:
+        """Obey a stop or a release of one; True when that changed anything."""
+        changed = self.latch.obey(said)
+        if changed and self.latch.stops:
+            self.hold("stop", "stopped", stopped_by(self.latch.stops), now)
+        elif changed:  # a release, perhaps of a stop that never arrived
+            self.holds.drop("stop")
+            self.mux.clear()
+            self.gate.begin_after(now, Refusal.BEFORE_RELEASE)
+        return changed
+
+    def withdraw(self, sender: int, now: float) -> None:
+        """Let go what a sender held whose process is gone."""
+        for claim in self.mux.claims:
+            if claim.sender == sender:
+                self._gone = (claim.source, now)
+        self.mux.release(sender)
+
+    def receive(self, source: str, command: Twist | Pwm, proof: Proof | None, now: float) -> Verdict:
+        """Judge a command that arrived."""
+        verdict = self._hear(source, command, proof, now)
+        if verdict.refusal:
+            self.refusals.note(source, verdict.refusal, now)
+        return verdict
+
+    def select(self, now: float) -> Claim | None:
+        """Return the claim that moves the robot now; None when nobody may drive."""
+        self._selected = now
+        claim = self.mux.select(now, self.interruption.ended) if not self.holds else None
+        self._drove = claim.sender if claim else self._drove
+        return claim
+
+    def rest(self, now: float) -> tuple[State, str]:
+        """Say why the robot rests, where it does."""
+        state, why = self._rest(now)
+        if not self.holds and (recent := self.refusals.recent(now, RECENT)):
+            source = max(recent, key=lambda name: recent[name].at)
+            why += f"; {source} is refused: {recent[source].why}"
+        return state, why
+
+    def _hear(self, source: str, command: Twist | Pwm, proof: Proof | None, now: float) -> Verdict:
+        if isinstance(command, Pwm) and not isinstance(self._settings.mixer, Ackermann):
+            return Verdict(Refusal.NO_SUCH_CHANNEL)
+        moving, beat = self._moves(command), self.beat(now)
+        unproven = proof is None and self.foreign.trusted(source)
+        if unproven and moving and now - self.interruption.ended <= self._settings.deadlines.max_age:
+            # Nobody can prove that it was not said before the interruption ended, and queued meanwhile.
+            self.foreign.hold_on(source, beat, now)
+            return Verdict(Refusal.INTERRUPTED)
+        if unproven:
+            proof = self.foreign.vouch(source, moving, beat, now)
+        refusal = self._judge(source, command, proof, moving, now)
+        if proof and moving:
+            return Verdict(refusal, proof.sender, now - (NEVER if unproven else proof.beat))
+        return Verdict(refusal)
+
+    def _rest(self, now: float) -> tuple[State, str]:
+        if held := self.holds.strongest:
+            return held.state, held.why
+        newest = max(self.mux.claims, key=lambda claim: claim.at, default=None)
+        if newest and newest.at <= (end := self.interruption.ended) and not self.silences.idle(newest, end):
+            return "link lost", f"{self.interruption.why}; {newest.source} goes on with its next act"
+        if newest is None:
+            return ("link lost", f"{self._gone[0]} is gone") if self._gone else ("idle", "nobody drives")
+        silence = self._sources[newest.source].silence
+        fell_silent, unheard = newest.at + silence, newest.beat + silence + HEARD_LATE
+        if self.silences.idle(newest, min(now, fell_silent, unheard)):  # the first deadline to pass
+            return "operator idle", f"no act on {newest.source} for {now - newest.acted:.1f} s"
+        if now < fell_silent:
+            return "link lost", f"{newest.source} has not heard the robot for {now - newest.beat:.1f} s"
+        return "link lost", f"{newest.source} has been silent for {now - newest.at:.1f} s"
+
+    def _judge(
+        self, source: str, command: Twist | Pwm, proof: Proof | None, moving: bool, now: float
+    ) -> Refusal | None:
+        refusal = self.gate.judge(proof, moving, now, self._sources[source].silence)
+        if refusal or proof is None:
+            if proof and refusal in LACKS_AN_ACT and not self.holds:
+                self.gate.hear(proof, now)
+            return refusal
+        if not moving:
+            self._gone = None  # a last neutral may arrive after the news of its sender's end
+            self.mux.release(proof.sender)
+            return None
+        if self.holds:
+            return Refusal.INTERRUPTED if self.holds.pass_by_themselves else Refusal.AT_REST
+        self._gone = None
+        claim = Claim(source, proof.sender, command, proof.acted, now, proof.seq, proof.beat, proof.began)
+        if not self.mux.offer(claim):
+            return Refusal.HELD
+        self.gate.count(proof, now)
+        return None
+
+    def _moves(self, command: Twist | Pwm) -> bool:
+        if isinstance(command, Pwm):
+            return not self._calibration.neutral(command)
+        return command.linear.x != 0 or command.angular.z != 0

@@ -1,0 +1,48 @@
+"""How a claim moves the robot: cap -> limiter -> mixer -> servo."""
+
+from typing import NamedTuple
+
+from zteleop.control.calibration import Calibration
+from zteleop.control.cap import Bound, Cap
+from zteleop.control.limiter import TwistLimiter, WheelLimiter
+from zteleop.control.mixer import Wheels
+from zteleop.control.mux import Claim
+from zteleop.control.settings import DriveSettings
+from zteleop.messages import Twist
+
+
+class Moved(NamedTuple):
+    """What one step makes of a claim."""
+
+    wheels: Wheels | None
+    """None where the robot rests"""
+    bound: Bound
+    """how fast it may go, and what says so"""
+
+
+class Movement:
+    """Bounds what is asked for, and makes wheels of it."""
+
+    def __init__(self, settings: DriveSettings, calibration: Calibration) -> None:
+        self.cap = Cap(settings.cap, settings.limits.speed_of(settings.mixer), settings.known_sources)
+        self._mixer = settings.mixer
+        self._calibration = calibration
+        self._limiter = TwistLimiter(settings.limits, settings.mixer)
+        self._wheel_limiter = WheelLimiter(settings.limits, settings.mixer, settings.servos)
+
+    def obey(self, claim: Claim | None, now: float) -> Moved:
+        """Return the wheels of now; without a claim those of rest."""
+        bound = self.cap.find(claim.source, now) if claim else self.cap.rest()
+        return Moved(self._wheel_limiter.limit(self._wheels(claim, bound.speed, now), now), bound)
+
+    def _wheels(self, claim: Claim | None, max_speed: float, now: float) -> Wheels | None:
+        if claim is None:
+            self._limiter.limit(None, now)
+            return None
+        if isinstance(claim.command, Twist):
+            twist = self._limiter.limit(claim.command, now, max_speed)
+            return self._mixer.mix(twist) if twist else None
+        self._limiter.limit(None, now)
+        wheels = self._wheel_limiter.cap(self._calibration.wheels(claim.command), max_speed)
+        self._limiter.follow(self._mixer.unmix(wheels))
+        return wheels
