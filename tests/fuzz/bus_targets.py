@@ -14,7 +14,8 @@ from zteleop.bus.session import Sample
 from zteleop.bus.settings import BusSettings
 from zteleop.bus.zenoh_session import _check_threads, _configure
 from zteleop.cli.echo import render as echo
-from zteleop.control.gate import Deadlines, Gate
+from zteleop.control.deadlines import Deadlines
+from zteleop.control.gate import Gate
 from zteleop.errors import ConfigError, MessageError
 from zteleop.messages import Message
 from zteleop.terminal.cells import printable as shown

@@ -11,7 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from zteleop.bus import codec
-from zteleop.control.gate import Deadlines, Gate
+from zteleop.control.deadlines import Deadlines
+from zteleop.control.gate import Gate
 from zteleop.control.proof import Proof
 from zteleop.errors import MessageError
 from zteleop.interfaces.values import fill

@@ -7,8 +7,8 @@ import pytest
 import zenoh
 from rig import NEUTRAL, Rig, repeating, until
 
+from zteleop.control.deadlines import DEAF_AFTER
 from zteleop.messages import Twist
-from zteleop.nodes.overhear import DEAF_AFTER
 
 RATE = 0.02
 DROP = zenoh.CongestionControl.DROP

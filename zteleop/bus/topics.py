@@ -32,24 +32,28 @@ class Topic(NamedTuple):
     """overtakes whatever waits"""
     depth: int = 10
     """how many are kept for a slow reader; the newest win"""
+    every: float = 0.0
+    """s at which it is said while there is something to say; 0 where nobody knows"""
 
 
 _NEWEST = 256
 """of which a reader wants the last, 20 times a second: 5,000 a second that are none pass it by"""
+_SAID, _TOLD = 0.05, 0.2
+"""s, for whom a robot obeys, and for people"""
 
 TOPICS = {
     topic.name: topic
     for topic in (
-        Topic("cmd_vel", (TwistStamped, Twist), ("cmd_vel_stamped",), command=True, urgent=True, depth=100),
-        Topic("pwm", (Pwm, Int16MultiArray), ("controls",), command=True, urgent=True, depth=100),
-        Topic("stop", (Stop,), urgent=True, depth=100),
-        Topic("beat", (Beat,), urgent=True, depth=_NEWEST),
-        Topic("drive_status", (DriveStatus,), urgent=True),
-        Topic("vehicle", (Vehicle,), depth=_NEWEST),
-        Topic("why", (Why,), depth=_NEWEST),
-        Topic("refusals", (Refusals,), depth=_NEWEST),
-        Topic("watchdog", (WatchdogStatus,), depth=_NEWEST),
-        Topic("odom", (Odometry,)),
+        Topic("cmd_vel", (TwistStamped, Twist), ("cmd_vel_stamped",), True, True, depth=100, every=_SAID),
+        Topic("pwm", (Pwm, Int16MultiArray), ("controls",), True, True, depth=100, every=_SAID),
+        Topic("stop", (Stop,), urgent=True, depth=100, every=_SAID),
+        Topic("beat", (Beat,), urgent=True, depth=_NEWEST, every=_SAID),
+        Topic("drive_status", (DriveStatus,), urgent=True, every=_SAID),
+        Topic("vehicle", (Vehicle,), depth=_NEWEST, every=_TOLD),
+        Topic("why", (Why,), depth=_NEWEST, every=_TOLD),
+        Topic("refusals", (Refusals,), depth=_NEWEST, every=_TOLD),
+        Topic("watchdog", (WatchdogStatus,), depth=_NEWEST, every=_TOLD),
+        Topic("odom", (Odometry,), every=_SAID),
         Topic("log", (Log,), depth=100),
     )
 }

@@ -3,11 +3,12 @@
 from typing import NamedTuple
 
 from zteleop.control.calibration import Calibration
+from zteleop.control.deadlines import HEARD_LATE
 from zteleop.control.foreign import Foreigners
 from zteleop.control.gate import Gate, Refusal
 from zteleop.control.hold import PAUSE, Holds
 from zteleop.control.mixer import Ackermann
-from zteleop.control.mux import HEARD_LATE, Claim, Claims, Mux, Silences
+from zteleop.control.mux import Claim, Claims, Mux, Silences
 from zteleop.control.proof import NEVER, Proof
 from zteleop.control.refusals import RefusedSources
 from zteleop.control.settings import DriveSettings

@@ -2,11 +2,12 @@
 
 from collections.abc import Mapping
 
+from zteleop.control.deadlines import PROGRAM_SILENCE
 from zteleop.control.mux import Claim, Source
 from zteleop.control.proof import LAPSE, Proof, Prover
 from zteleop.messages import Beat
 
-FOREIGN_SILENCE = 0.5
+FOREIGN_SILENCE = PROGRAM_SILENCE
 """s after which a foreign sender that moved begins anew, unless its claim is over."""
 
 

@@ -2,29 +2,14 @@
 
 from collections import OrderedDict
 from enum import StrEnum
-from typing import Annotated
 
-from msgspec import Meta, Struct
+from msgspec import Struct
 
+from zteleop.control.deadlines import Deadlines
 from zteleop.control.proof import NEVER, Proof
 
 SENDERS = 64
 """How many senders are remembered; whoever is forgotten must let go once more. Never who drives."""
-
-
-class Deadlines(Struct, frozen=True, forbid_unknown_fields=True):
-    """How long is too long, in seconds."""
-
-    max_age: Annotated[float, Meta(gt=0, le=1)] = 0.3
-    """of a command, from the robot's beat back to the robot"""
-    operator: Annotated[float, Meta(gt=0, le=5)] = 5.0
-    """without an act"""
-    link_loss: Annotated[float, Meta(gt=0, le=5)] = 2.0
-    """of silence, after which only a new act from neutral drives again"""
-    late_step: Annotated[float, Meta(gt=0.05, le=1)] = 0.2
-    """between two steps, after which the robot knows it was stopped itself"""
-    stand_still: Annotated[float, Meta(gt=0.05, le=2)] = 0.5
-    """of `link_loss`, where the whole machine stood still and nobody watched the chip"""
 
 
 class Refusal(StrEnum):

@@ -6,6 +6,7 @@ from msgspec.structs import replace
 
 from zteleop.control.admission import Admission
 from zteleop.control.calibration import Calibration
+from zteleop.control.deadlines import GRACE
 from zteleop.control.gate import SENDERS, Refusal
 from zteleop.control.mux import Claim, Silences
 from zteleop.control.proof import NEVER, Proof
@@ -13,8 +14,6 @@ from zteleop.control.settings import DriveSettings
 from zteleop.control.standing import Standing
 from zteleop.messages import Pwm, Twist
 
-GRACE = 0.25
-"""s that the actuator has to do what its deadlines ask, before the watchdog does it."""
 LOOKS = 2
 """How many looks in a row must find the same fault: one may fall between a command and its pulse."""
 

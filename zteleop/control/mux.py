@@ -8,6 +8,7 @@ from typing import Annotated, Literal, NamedTuple, Protocol
 
 from msgspec import Meta, Struct
 
+from zteleop.control.deadlines import HEARD_LATE, SILENCE
 from zteleop.control.proof import NEVER
 from zteleop.messages import Pwm, Twist
 
@@ -16,7 +17,7 @@ class Source(Struct, frozen=True, forbid_unknown_fields=True):
     """A kind of sender and what it may do."""
 
     priority: Annotated[int, Meta(ge=0, le=255)]
-    silence: Annotated[float, Meta(gt=0, le=1)] = 0.3
+    silence: Annotated[float, Meta(gt=0, le=1)] = SILENCE
     """s without a command until neutral"""
     trust: Literal["proof", "arrival"] = "proof"
     """arrival: obey foreign senders that cannot prove the age of what they say"""
@@ -26,8 +27,6 @@ class Source(Struct, frozen=True, forbid_unknown_fields=True):
     """With trust = "arrival": drive on after the robot's start without a pause, as no other sender may."""
 
 
-HEARD_LATE = 0.1
-"""s that a sender may have heard the robot before it is heard itself, without its silence counting sooner"""
 WAITING = 64
 """How many senders that wait are remembered."""
 

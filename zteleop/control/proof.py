@@ -6,10 +6,11 @@ the robot's beats: whatever carries a beat was made after the robot sent it.
 
 from typing import NamedTuple
 
+from zteleop.control.deadlines import LINK_LOSS, PROGRAM_SILENCE
 from zteleop.messages import Beat
 
 NEVER = float("-inf")
-LAPSE = 2.0
+LAPSE = LINK_LOSS
 """s of silence after which nobody takes what is said next for the rest of a claim that is over."""
 
 
@@ -37,7 +38,7 @@ def called(source: str, sender: str) -> str:
 class Prover:
     """Makes the proofs of one sender."""
 
-    def __init__(self, sender: int, silence: float = 0.5, lapse: float = LAPSE) -> None:
+    def __init__(self, sender: int, silence: float = PROGRAM_SILENCE, lapse: float = LAPSE) -> None:
         self._sender, self._silence, self._lapse = sender, silence, max(silence, lapse)
         self._seq = 0
         self._epoch = -1

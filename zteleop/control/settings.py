@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from msgspec import Struct, field
 
 from zteleop.control.cap import CapSettings
-from zteleop.control.gate import Deadlines
+from zteleop.control.deadlines import PROGRAM_SILENCE, Deadlines
 from zteleop.control.limiter import Limits
 from zteleop.control.mixer import Ackermann, Mixer
 from zteleop.control.mux import Source
@@ -22,7 +22,7 @@ SOURCES = {
     "gamepad": Source(priority=95),
     "keyboard": Source(priority=90),
     "buttons": Source(priority=80),
-    "program": Source(priority=50, silence=0.5),
+    "program": Source(priority=50, silence=PROGRAM_SILENCE),
 }
 
 

@@ -8,13 +8,11 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from pathlib import Path
 
+from zteleop.control.deadlines import DOOR_SILENCE, DOOR_START, LATE_STEP, LONGEST_OPENING
+
 ALIVE = b"."
 """What a door says to its watchdog every `ALIVE_EVERY` s."""
 ALIVE_EVERY = 0.05
-SILENCE = 0.5
-"""s without that until a door is ended"""
-OPENS_WITHIN, LONGEST_OPENING = 10.0, 60.0
-"""s from its start to the first of them; what was too short is doubled for the next"""
 LARGEST = 192 * 2**20
 """bytes of memory; strangers fill it, and the robot's own processes need the rest of the machine"""
 WEIGH_EVERY = 0.5
@@ -22,8 +20,6 @@ FIRST_PAUSE, LONGEST_PAUSE = 0.1, 5.0
 """s between an end and the next start, doubled each time; none at first, and once one has lived for STEADY"""
 STEADY = 10.0
 ENDS_WITHIN = 1.0
-LATE = 0.2
-"""s between two looks, after which the watchdog was late itself, and has heard nothing for that reason"""
 
 
 class Door:
@@ -43,7 +39,7 @@ class Door:
         self._process: subprocess.Popen[bytes] | None = None
         self._link: socket.socket | None = None
         self._started = self._heard = self._looked = self._weighed = float("-inf")
-        self._patience = OPENS_WITHIN
+        self._patience = DOOR_START
         self._pause = 0.0
         self._due: float | None = None
         self.is_open = self._was_open = False
@@ -77,7 +73,7 @@ class Door:
 
     def tend(self, now: float) -> None:
         """Notice that it broke, end what is left of it, and start the next when it is time; `now` in s."""
-        late, self._looked = now - self._looked > LATE, now
+        late, self._looked = now - self._looked > LATE_STEP, now
         if self.refused:
             return
         if self._due is not None:
@@ -123,7 +119,7 @@ class Door:
         return "it ended"
 
     def _open(self, now: float) -> None:
-        self.is_open, self._was_open, self._patience = True, True, OPENS_WITHIN
+        self.is_open, self._was_open, self._patience = True, True, DOOR_START
         if self.starts > 1:
             self.say(f"the door is open again, {now - self._started:.1f} s after its start")
 
@@ -134,7 +130,7 @@ class Door:
                 return ""
             had, self._patience = self._patience, min(2 * self._patience, LONGEST_OPENING)
             return f"it did not open within {had:g} s of its start, and the next has {self._patience:g} s"
-        if now - self._heard > SILENCE:
+        if now - self._heard > DOOR_SILENCE:
             return f"it was silent for {now - self._heard:.1f} s"
         if now - self._weighed > WEIGH_EVERY:
             self._weighed = now

@@ -5,6 +5,7 @@ from zteleop.bus.node import Node
 from zteleop.bus.subscription import Received
 from zteleop.bus.topics import TOPICS
 from zteleop.control.command import to_command
+from zteleop.control.deadlines import STEP_EVERY, WATCHDOG_SILENCE
 from zteleop.control.drive import Drive
 from zteleop.control.explain import layers
 from zteleop.control.proof import called
@@ -31,14 +32,10 @@ from zteleop.messages import (
 from zteleop.nodes.output import Output
 from zteleop.recording.journal import Journal
 
-PERIOD = 0.02
 AT_MOST_EVERY = 0.005
 IN_A_ROW = 4
-TELL_EVERY = 0.05
-DESCRIBE_EVERY = CHECK_EVERY = 0.2
+CHECK_EVERY = 0.2
 KEEP_EVERY = 1.0
-WATCHDOG_SILENCE = 0.45
-"""s without a word of the watchdog until neutral and exit: 0.5 s since it froze at the latest."""
 DEAF = "deaf"
 UNHEARD = "the watchdog does not hear this robot on the bus"
 TAKEN_OVER = "its actuator came late, and was started again"
@@ -99,9 +96,9 @@ class Actuator:
             self._node.subscription("stop", Stop, lambda received: self._obey(received.message))
             self._node.departures(self._withdraw)
             self._node.watch(self._link.fileno(), self._hear_watchdog)
-            self._node.every(PERIOD)(self._tick)
-            self._node.every(TELL_EVERY)(self._tell)
-            self._node.every(DESCRIBE_EVERY)(self._describe)
+            self._node.every(STEP_EVERY)(self._tick)
+            self._node.every(TOPICS["beat"].every)(self._tell)
+            self._node.every(TOPICS["why"].every)(self._describe)
             self._node.every(CHECK_EVERY)(lambda: self._output.check(clock.now()))
             self._node.every(KEEP_EVERY)(self._stop_file.tend)
             if health := self._health:

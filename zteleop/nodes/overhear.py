@@ -4,15 +4,14 @@ from zteleop.bus.node import Node
 from zteleop.bus.subscription import Subscription
 from zteleop.bus.topics import TOPICS
 from zteleop.control.command import to_command
-from zteleop.control.judge import GRACE, Judge
+from zteleop.control.deadlines import DEAF_AFTER, GRACE
+from zteleop.control.judge import Judge
 from zteleop.control.settings import DriveSettings
 from zteleop.control.stop import MERGED, Latch
 from zteleop.errors import MessageError
 from zteleop.machine.stop_file import UNREADABLE, StopFile
 from zteleop.messages import Beat, Stop
 
-DEAF_AFTER = 0.5
-"""s without a beat of the actuator's epoch."""
 DEPTH = 500
 """Commands kept of each source for one tick; a flood beyond it loses the oldest."""
 

@@ -2,6 +2,7 @@
 
 from zteleop.bus import clock
 from zteleop.bus.node import Node
+from zteleop.bus.topics import TOPICS
 from zteleop.control.settings import DriveSettings
 from zteleop.drivers.registers import read_pulse_us
 from zteleop.drivers.simulated import open_registers
@@ -9,7 +10,6 @@ from zteleop.messages import Odometry
 from zteleop.sim import make_vehicle
 
 PERIOD = 0.01
-TELL_EVERY = 0.05
 
 
 def run(node: Node, settings: DriveSettings, path: str) -> None:
@@ -28,7 +28,7 @@ def run(node: Node, settings: DriveSettings, path: str) -> None:
         vehicle.step({channel: read_pulse_us(snapshot, channel) for channel in channels}, now - then)
         then = now
 
-    @node.every(TELL_EVERY)
+    @node.every(TOPICS["odom"].every)
     def tell() -> None:
         odoms.publish(vehicle.odometry(clock.stamp()))
 

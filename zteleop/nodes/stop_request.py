@@ -9,6 +9,7 @@ from zteleop.bus.lane.call import Call
 from zteleop.bus.lane.wire import Answered
 from zteleop.bus.node import Node
 from zteleop.bus.publisher import Publisher
+from zteleop.bus.topics import TOPICS
 from zteleop.control.evidence import STANDS
 from zteleop.control.hold import HOLDS
 from zteleop.control.proof import NEVER
@@ -16,7 +17,7 @@ from zteleop.control.stop import MERGED, is_persons, whose
 from zteleop.machine.ids import new_id
 from zteleop.messages import Confirmed, DriveStatus, Stop
 
-EVERY, ACKNOWLEDGED_WITHIN = 0.05, 2.0
+ACKNOWLEDGED_WITHIN = 2.0
 REPEAT = 3.0
 """s for which a stop is said, also after the answer: longer than any loss of the link that heals by itself"""
 SETTLED = 0.5
@@ -151,7 +152,7 @@ class Stopping:
         return now >= self._due or (self._is_matched and not self._matched)
 
     def _say(self, now: float) -> None:
-        self._matched, self._due = self._is_matched, now + EVERY
+        self._matched, self._due = self._is_matched, now + TOPICS["stop"].every
         for said in self._asked:
             if self._lane:
                 self._lane.say(self.robot, said)

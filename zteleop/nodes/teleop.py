@@ -6,6 +6,8 @@ from typing import NamedTuple
 from zteleop.bus import clock
 from zteleop.bus.lane.call import Call
 from zteleop.bus.node import Node
+from zteleop.bus.topics import TOPICS
+from zteleop.control.deadlines import LINK_LOSS
 from zteleop.control.hold import HOLDS
 from zteleop.control.stick import Stick, neutral_pwm, to_pwm, to_twist
 from zteleop.errors import BusError, ConfigError
@@ -22,9 +24,8 @@ from zteleop.messages import (
 )
 from zteleop.nodes.stop_request import Stopping, person
 
-PERIOD = 0.05
+PERIOD = TOPICS["cmd_vel"].every
 NEUTRALS = 3
-LINK_LOSS = 2.0
 LATE = 0.5
 """s between two looks at the device, after which this process knows that it was stopped itself."""
 NEWS = 5.0

@@ -10,7 +10,17 @@ from zteleop.bus import clock
 from zteleop.bus.lane.ear import Ear, Heard
 from zteleop.bus.lane.wire import Answered
 from zteleop.bus.node import Node
-from zteleop.control.judge import GRACE, Judge
+from zteleop.bus.topics import TOPICS
+from zteleop.control.deadlines import (
+    ACTUATOR_SILENCE,
+    ACTUATOR_START,
+    BLIND,
+    GRACE,
+    LATE_STEP,
+    LONGEST_START,
+    STEP_EVERY,
+)
+from zteleop.control.judge import Judge
 from zteleop.control.settings import DriveSettings
 from zteleop.control.standing import Standing
 from zteleop.drivers import PulseDriver
@@ -24,20 +34,11 @@ from zteleop.machine.stop_file import StopFile
 from zteleop.messages import Confirmed, Stop, WatchdogStatus
 from zteleop.nodes.overhear import Overhearing
 
-PERIOD = 0.02
 BEAT_EVERY = LOOK_EVERY = 0.05
-TELL_EVERY = 0.2
-SILENCE = 0.25
-"""s without a step of the actuator until it is killed."""
-START, LONGEST_START = 5.0, 60.0
-"""s until its first step; whatever was too short is doubled for the next, as a slow machine stays slow."""
-LATE = 0.2
-"""s between two ticks, after which the watchdog knows that it was stopped itself."""
 FORGIVE_EVERY = 2.0
 """s; a watchdog that is late all the time would otherwise hear no silence at all"""
-BLIND = 0.25
-"""s and `LOOKS` in a row without a look at the chip until its outputs are cut: it may repeat any pulses"""
 LOOKS = 2
+"""in a row that fail besides, until a chip's outputs are cut"""
 PER_LOOK, AT_MOST = 2, 1.0
 """times what a look took, and s, that the actuator may be silent in addition: it waits for the same bus"""
 YIELD = 5
@@ -72,7 +73,7 @@ class Watchdog:
         self._statuses = node.publisher("watchdog", WatchdogStatus)
         self._ticked, self._woke = clock.now(), float("-inf")
         self._restart_at: float | None = None
-        self._start_patience = START
+        self._start_patience = ACTUATOR_START
         self._standing: Standing | None = None
         """Of the actuator that is gone, where it was only late."""
         self._look_after = self._seen = clock.now()
@@ -95,10 +96,10 @@ class Watchdog:
         signal.signal(signal.SIGTSTP, signal.SIG_IGN)  # Ctrl-Z would leave the wheels turning
         try:
             self._start()
-            self._node.every(PERIOD)(self._tick)
+            self._node.every(STEP_EVERY)(self._tick)
             self._node.every(BEAT_EVERY)(self._beat)
             self._node.every(LOOK_EVERY)(self._look)
-            self._node.every(TELL_EVERY)(self._tell)
+            self._node.every(TOPICS["watchdog"].every)(self._tell)
             self._node.spin()
         finally:
             self._finish()
@@ -132,7 +133,7 @@ class Watchdog:
 
     def _greet(self) -> None:
         """Let the outputs through, and tell a new actuator of stops that may be on no disk."""
-        self._why, self._start_patience = "the actuator steps", START
+        self._why, self._start_patience = "the actuator steps", ACTUATOR_START
         self._seen, self._blind = clock.now(), 0
         self._cut(False)
         for stop in self._ears.stops:
@@ -142,7 +143,7 @@ class Watchdog:
     def _tick(self) -> None:
         """Take in what the bus says, and notice silence."""
         now = clock.now()
-        if now - self._ticked > LATE and now - self._woke > FORGIVE_EVERY:
+        if now - self._ticked > LATE_STEP and now - self._woke > FORGIVE_EVERY:
             self._woke = now
         self._ticked = now
         for heard in self._lane.take(now) if self._lane else ():
@@ -161,7 +162,7 @@ class Watchdog:
         """
         limit = self._start_patience
         if self._child.ready:
-            limit = SILENCE + min(PER_LOOK * self._look_took, AT_MOST)
+            limit = ACTUATOR_SILENCE + min(PER_LOOK * self._look_took, AT_MOST)
         return min(self._child.silence(now), now - self._woke) > limit
 
     def _lose_patience(self, now: float) -> str:
@@ -315,13 +316,13 @@ class Watchdog:
         self._child.ask_to_end()
         give_up = clock.now() + ENDS_WITHIN
         while not self._child.gone and clock.now() < give_up:
-            time.sleep(PERIOD)
+            time.sleep(STEP_EVERY)
             self._rest()  # it may hang in its end, with a chip that did not take its neutral
         self._child.end(0.0)
         give_up = clock.now() + (GRACE if self._never_stepped else RESTS_WITHIN)
         self._rest()
         while not self._at_rest and clock.now() < give_up:
-            time.sleep(PERIOD)
+            time.sleep(STEP_EVERY)
             self._rest()
         self._cut(True)
         self._hand.close()

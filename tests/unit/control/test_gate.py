@@ -1,6 +1,7 @@
 import pytest
 
-from zteleop.control.gate import SENDERS, Deadlines, Gate, Refusal
+from zteleop.control.deadlines import Deadlines
+from zteleop.control.gate import SENDERS, Gate, Refusal
 from zteleop.control.proof import Proof
 
 EPOCH = 5

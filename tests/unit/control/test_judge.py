@@ -4,9 +4,10 @@ import pytest
 from unit.control.robot import FORWARD, NEUTRAL, REST, TICK_US, Robot, moves
 
 from zteleop.control.cap import Strain
+from zteleop.control.deadlines import GRACE
 from zteleop.control.drive import Drive, Step
 from zteleop.control.gate import SENDERS, Refusal
-from zteleop.control.judge import GRACE, LOOKS, Judge
+from zteleop.control.judge import LOOKS, Judge
 from zteleop.control.mux import Source
 from zteleop.control.proof import LAPSE, Proof, Prover
 from zteleop.control.settings import DriveSettings

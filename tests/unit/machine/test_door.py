@@ -10,8 +10,9 @@ from pathlib import Path
 
 import pytest
 
+from zteleop.control.deadlines import DOOR_SILENCE, DOOR_START, LATE_STEP
 from zteleop.machine import door as module
-from zteleop.machine.door import FIRST_PAUSE, LARGEST, LATE, OPENS_WITHIN, SILENCE, STEADY, Door
+from zteleop.machine.door import FIRST_PAUSE, LARGEST, STEADY, Door
 
 LISTENS = """
 import os, sys
@@ -23,7 +24,7 @@ os.read(link, 1)
 OPENS = LISTENS.format(says="os.write(link, b'.')")
 NEVER_OPENS = LISTENS.format(says="")
 REFUSES = "raise SystemExit(3)"
-STEP = LATE / 2
+STEP = LATE_STEP / 2
 PATIENCE = 30.0
 
 
@@ -102,7 +103,7 @@ def test_of_those_that_break_in_a_row_each_comes_later(opened: House) -> None:
 def test_one_that_was_long_open_does_not_count_as_in_a_row(
     opened: House, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(module, "SILENCE", float("inf"))
+    monkeypatch.setattr(module, "DOOR_SILENCE", float("inf"))
     for start in (2, 3):
         opened.tend(STEADY + 1)
         opened.kill()
@@ -111,7 +112,7 @@ def test_one_that_was_long_open_does_not_count_as_in_a_row(
 
 
 def test_one_that_falls_silent_is_ended_and_followed(opened: House) -> None:
-    opened.tend(SILENCE)
+    opened.tend(DOOR_SILENCE)
     assert opened.words == []
     opened.tend(2 * STEP)
     opened.until(lambda: opened.door.starts == 2)
@@ -119,7 +120,7 @@ def test_one_that_falls_silent_is_ended_and_followed(opened: House) -> None:
 
 
 def test_whoever_was_late_himself_listens_before_he_judges(opened: House) -> None:
-    opened.now += 10 * SILENCE
+    opened.now += 10 * DOOR_SILENCE
     opened.door.tend(opened.now)
     assert opened.words == []
 
@@ -149,12 +150,12 @@ def test_one_that_never_opened_and_said_why_is_not_followed(tmp_path: Path) -> N
 
 def test_one_that_opens_too_slowly_leaves_the_next_more_time(tmp_path: Path) -> None:
     house = House(tmp_path, NEVER_OPENS)
-    house.tend(OPENS_WITHIN + STEP)
+    house.tend(DOOR_START + STEP)
     assert house.words[0].startswith(
         "the door to the bus is shut: it did not open within 10 s of its start, and the next has 20 s;"
     )
     house.until(lambda: house.door.starts == 2)
-    house.tend(OPENS_WITHIN + STEP)
+    house.tend(DOOR_START + STEP)
     assert len(house.words) == 1
     house.door.close()
 
@@ -184,7 +185,7 @@ def test_one_that_the_system_cannot_start_is_tried_ever_later_and_ends_nobody(
     def full(*_: object, **__: object) -> None:
         raise BlockingIOError(errno.EAGAIN, "Resource temporarily unavailable")
 
-    monkeypatch.setattr(module, "SILENCE", float("inf"))
+    monkeypatch.setattr(module, "DOOR_SILENCE", float("inf"))
     opened.tend(STEADY + 1)
     with monkeypatch.context() as without:
         without.setattr(module.subprocess, "Popen", full)

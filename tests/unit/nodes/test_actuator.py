@@ -5,6 +5,8 @@ from unit.bus.fakes import Clock
 from unit.nodes.fakes import Chip, Node, Shelf
 
 from zteleop.bus.subscription import Received
+from zteleop.bus.topics import TOPICS
+from zteleop.control.deadlines import STEP_EVERY, WATCHDOG_SILENCE
 from zteleop.control.mux import Source
 from zteleop.control.proof import Proof, Prover
 from zteleop.control.settings import SOURCES, DriveSettings
@@ -16,12 +18,8 @@ from zteleop.messages import Beat, DriveStatus, Int16MultiArray, Message, MultiA
 from zteleop.nodes.actuator import (
     AT_MOST_EVERY,
     CHECK_EVERY,
-    DESCRIBE_EVERY,
     IN_A_ROW,
     KEEP_EVERY,
-    PERIOD,
-    TELL_EVERY,
-    WATCHDOG_SILENCE,
     Actuator,
     UnwatchedError,
 )
@@ -115,12 +113,12 @@ class Robot:
 
     @property
     def beat(self) -> Beat:
-        self.node.timers[TELL_EVERY]()
+        self.node.timers[TOPICS["beat"].every]()
         return self.node.said["beat"].messages[-1]
 
     @property
     def status(self) -> DriveStatus:
-        self.node.timers[TELL_EVERY]()
+        self.node.timers[TOPICS["beat"].every]()
         return self.node.said["drive_status"].messages[-1]
 
     def hear(self, words: Words | None) -> None:
@@ -142,10 +140,10 @@ class Robot:
 
     def tick(self, times: int = 1, watched: bool = True) -> None:
         for _ in range(times):
-            self.clock.pass_by(PERIOD)
+            self.clock.pass_by(STEP_EVERY)
             if watched:
                 self.hear(Words(None))
-            self.node.timers[PERIOD]()
+            self.node.timers[STEP_EVERY]()
 
 
 @pytest.fixture
@@ -261,7 +259,7 @@ def test_whoever_drove_before_it_was_deaf_for_long_begins_anew(robot: Robot) -> 
 def test_while_the_esc_arms_it_is_starting(node: Node, clock: Clock) -> None:
     robot = Robot(node, clock, chip=Chip(arming=2.0))
     assert (robot.status.state, robot.status.why) == ("starting", "neutral for 2 s while the ESC arms")
-    node.timers[DESCRIBE_EVERY]()
+    node.timers[TOPICS["why"].every]()
     assert not node.said["vehicle"].messages[-1].ready
     robot.tick(97)
     assert robot.status.state == "starting"
@@ -303,7 +301,7 @@ def test_one_in_the_place_of_another_that_nobody_drove_lets_the_esc_arm(node: No
 
 def test_one_that_nobody_watches_ends_with_a_code_of_its_own(robot: Robot) -> None:
     with pytest.raises(UnwatchedError) as ended:
-        robot.tick(round(WATCHDOG_SILENCE / PERIOD) + 2, watched=False)
+        robot.tick(round(WATCHDOG_SILENCE / STEP_EVERY) + 2, watched=False)
     assert ended.value.exit_code == UNWATCHED
 
 
@@ -379,13 +377,13 @@ def test_a_stop_is_told_with_what_the_chip_shows(robot: Robot) -> None:
     robot.node.timers[CHECK_EVERY]()
     assert (robot.status.state, robot.status.confirmed) == ("fault", "")
     robot.hear(Words(True, cut=True))
-    robot.node.timers[TELL_EVERY]()
+    robot.node.timers[TOPICS["beat"].every]()
     assert robot.status.confirmed == "cut"
     robot.hear(Words(None))
-    robot.node.timers[TELL_EVERY]()
+    robot.node.timers[TOPICS["beat"].every]()
     assert robot.status.confirmed == "cut", "it said nothing of it"
     robot.hear(Words(False))
-    robot.node.timers[TELL_EVERY]()
+    robot.node.timers[TOPICS["beat"].every]()
     assert robot.status.confirmed == ""
 
 
@@ -419,7 +417,7 @@ def test_it_obeys_and_keeps_the_watchdogs_stop(robot: Robot) -> None:
 
 
 def test_without_a_watchdog_it_ends_in_words(robot: Robot) -> None:
-    robot.tick(int(WATCHDOG_SILENCE / PERIOD), watched=False)
+    robot.tick(int(WATCHDOG_SILENCE / STEP_EVERY), watched=False)
     with pytest.raises(DeviceError, match=r"the watchdog has been silent for 0\.5 s; the robot is at rest"):
         robot.tick(2, watched=False)
 
@@ -446,7 +444,7 @@ def test_a_chip_that_fails_is_a_fault_until_it_is_repaired_through_neutral(robot
     robot.tick(4)
     assert (robot.status.state, robot.status.why) == ("fault", "the chip does not take a start")
     robot.chip.broken.clear()
-    robot.tick(round(REPAIR_EVERY / PERIOD) + 1)
+    robot.tick(round(REPAIR_EVERY / STEP_EVERY) + 1)
     assert (robot.status.state, robot.chip.pulses) == ("idle", NEUTRAL)
     robot.say(PUSH)
     assert robot.chip.pulses == NEUTRAL
@@ -483,7 +481,7 @@ def test_the_journal_hears_every_command_with_its_verdict(robot: Robot) -> None:
 def test_it_steps_and_tells_on_a_clock(robot: Robot) -> None:
     robot.tick()
     assert robot.chip.writes == [NEUTRAL]
-    robot.node.timers[DESCRIBE_EVERY]()
+    robot.node.timers[TOPICS["why"].every]()
     assert robot.node.said["vehicle"].messages[-1].kind == "ackermann"
     assert robot.beat.time == robot.clock.time
 
@@ -604,7 +602,7 @@ def test_after_a_short_one_whoever_drove_goes_on_with_the_next_act_and_not_befor
 def test_a_step_that_is_a_little_late_is_no_pause(robot: Robot) -> None:
     before = robot.beat.epoch
     robot.clock.pass_by(0.19)
-    robot.node.timers[PERIOD]()
+    robot.node.timers[STEP_EVERY]()
     assert robot.beat.epoch == before
 
 
@@ -628,7 +626,7 @@ def test_a_weak_supply_slows_it_down_and_is_told(node: Node, clock: Clock, tmp_p
     assert robot.status.max_speed == 1.5
     assert "undervoltage" in robot.status.slowed
     assert any("undervoltage" in words for words in node.warnings)
-    node.timers[DESCRIBE_EVERY]()
+    node.timers[TOPICS["why"].every]()
     caps = [layer.says for layer in node.said["why"].messages[-1].layers if layer.name == "cap"]
     assert caps == ["1.5 of 3 m/s: the Pi's supply is too low (undervoltage); use a better one"]
 
@@ -637,13 +635,13 @@ def refuse(robot: Robot, times: int) -> None:
     for number in range(times):
         robot.tick(5)
         robot.say(FORWARD, proof=Proof(255, number + 1, 0, 0.0, 0.0, 0.0))
-        robot.node.timers[DESCRIBE_EVERY]()
+        robot.node.timers[TOPICS["why"].every]()
 
 
 def test_whoever_is_refused_for_a_while_is_told_and_nobody_else(robot: Robot) -> None:
     told = robot.node.said["refusals"]
     robot.say(PUSH)
-    robot.node.timers[DESCRIBE_EVERY]()
+    robot.node.timers[TOPICS["why"].every]()
     refuse(robot, 5)
     assert told.messages == []
     refuse(robot, 3)
@@ -652,7 +650,7 @@ def test_whoever_is_refused_for_a_while_is_told_and_nobody_else(robot: Robot) ->
     assert refused.why == "it was made before the robot's last start"
     assert refused.since > 0.5
     robot.tick(110)
-    robot.node.timers[DESCRIBE_EVERY]()
+    robot.node.timers[TOPICS["why"].every]()
     assert told.take() == []
 
 

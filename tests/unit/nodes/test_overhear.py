@@ -2,14 +2,15 @@ import pytest
 from unit.nodes.fakes import Node, Shelf
 
 from zteleop.bus.subscription import Received
-from zteleop.control.judge import GRACE, Judge
+from zteleop.control.deadlines import DEAF_AFTER, GRACE
+from zteleop.control.judge import Judge
 from zteleop.control.mux import Source
 from zteleop.control.proof import Proof, Prover
 from zteleop.control.settings import SOURCES, DriveSettings
 from zteleop.control.standing import Standing
 from zteleop.machine.stop_file import UNREADABLE
 from zteleop.messages import Beat, Message, Pwm, Stop, String
-from zteleop.nodes.overhear import DEAF_AFTER, Overhearing
+from zteleop.nodes.overhear import Overhearing
 
 PERIOD = 0.02
 PUSH = Pwm(390, 370)

@@ -4,10 +4,11 @@ import pytest
 from unit.bus.fakes import Clock
 from unit.nodes.fakes import Node
 
+from zteleop.bus.topics import TOPICS
 from zteleop.control.settings import DriveSettings
 from zteleop.drivers import open_driver
 from zteleop.nodes import simulator
-from zteleop.nodes.simulator import PERIOD, TELL_EVERY
+from zteleop.nodes.simulator import PERIOD
 
 
 def test_the_car_moves_as_its_chip_says_and_tells_where_it_is(
@@ -23,7 +24,7 @@ def test_the_car_moves_as_its_chip_says_and_tells_where_it_is(
             for _ in range(100):
                 clock.pass_by(PERIOD)
                 node.timers[PERIOD]()
-            node.timers[TELL_EVERY]()
+            node.timers[TOPICS["odom"].every]()
     finally:
         driver.close()
     still, moved = node.said["odom"].messages

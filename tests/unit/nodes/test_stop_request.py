@@ -4,9 +4,10 @@ import pytest
 from unit.nodes.fakes import Node, Said
 
 from zteleop.bus.lane.wire import Answered
+from zteleop.bus.topics import TOPICS
 from zteleop.control.stop import MERGED, Latch
 from zteleop.messages import Confirmed, DriveStatus, Stop
-from zteleop.nodes.stop_request import ACKNOWLEDGED_WITHIN, EVERY, REPEAT, SETTLED, Stopping, person
+from zteleop.nodes.stop_request import ACKNOWLEDGED_WITHIN, REPEAT, SETTLED, Stopping, person
 
 TICK = 0.01
 
@@ -75,7 +76,7 @@ def test_a_stop_is_said_at_once_and_twenty_times_a_second_until_it_is_shown(aske
     stop = asker.engage("a cat")
     assert asker.said.take() == [Stop(True, stop.id, "ann@desk", "a cat")]
     asker.wait(1.0, idle())
-    assert asker.said.take() == [stop] * round(1.0 / EVERY)
+    assert asker.said.take() == [stop] * round(1.0 / TOPICS["stop"].every)
     assert asker.stopping.state == "pending"
     assert asker.heed(stopped(stop.id))
     assert asker.outcome == ("done", "archangel is stopped (neutral read back from the chip within 1010 ms)")
@@ -89,7 +90,7 @@ def test_a_stop_is_said_for_three_seconds_also_after_the_answer(asker: Asker) ->
     assert asker.stopping.repeats(asker.now)
     asker.wait(1.0, stopped(stop.id))
     assert not asker.stopping.repeats(asker.now)
-    assert len(asker.said.take()) == pytest.approx(REPEAT / EVERY, abs=2)
+    assert len(asker.said.take()) == pytest.approx(REPEAT / TOPICS["stop"].every, abs=2)
 
 
 def test_a_stop_that_somebody_released_is_said_no_more(asker: Asker) -> None:
@@ -129,10 +130,10 @@ def test_a_stop_is_said_on_the_lane_before_there_is_a_bus_and_on_both_afterwards
     lane = Lane()
     stopping = Stopping(None, "ann@desk", "archangel", lane)
     stopping.engage(100.0)
-    stopping.heed(None, 100.0 + EVERY)
+    stopping.heed(None, 100.0 + TOPICS["stop"].every)
     assert [robot for robot, _ in lane.said] == ["archangel"] * 2
     stopping.join(node)
-    stopping.heed(None, 100.0 + EVERY)
+    stopping.heed(None, 100.0 + TOPICS["stop"].every)
     assert node.said["/archangel/stop"].messages == [lane.said[0][1]]
     assert len(lane.said) == 3
 

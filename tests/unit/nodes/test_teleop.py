@@ -2,6 +2,7 @@ import pytest
 from unit.bus.fakes import Clock
 from unit.nodes.fakes import Node
 
+from zteleop.control.deadlines import LINK_LOSS
 from zteleop.control.mixer import Differential
 from zteleop.control.report import to_vehicle
 from zteleop.control.servo import Servo
@@ -10,7 +11,7 @@ from zteleop.control.stick import Speeds, Stick
 from zteleop.errors import BusError, ConfigError
 from zteleop.messages import DriveStatus, Log, Odometry, Pwm, Stop, Twist, Vehicle
 from zteleop.nodes.stop_request import ACKNOWLEDGED_WITHIN, REPEAT
-from zteleop.nodes.teleop import LINK_LOSS, NEWS, PERIOD, SHOW_AFTER, Teleop, View
+from zteleop.nodes.teleop import NEWS, PERIOD, SHOW_AFTER, Teleop, View
 
 CAR = to_vehicle(DriveSettings(), 4.08)
 SLOW_CAR = to_vehicle(DriveSettings(), 4.1)

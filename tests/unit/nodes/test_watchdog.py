@@ -9,7 +9,8 @@ from unit.nodes.fakes import Chip, Node, Shelf
 
 from zteleop.bus.lane.wire import Answered, Asked
 from zteleop.bus.subscription import Received
-from zteleop.control.judge import GRACE
+from zteleop.bus.topics import TOPICS
+from zteleop.control.deadlines import ACTUATOR_SILENCE, ACTUATOR_START, BLIND, GRACE, LATE_STEP, STEP_EVERY
 from zteleop.control.proof import Prover
 from zteleop.control.settings import DriveSettings
 from zteleop.control.standing import Standing
@@ -18,21 +19,7 @@ from zteleop.machine import systemd
 from zteleop.machine.link import CUT, HEARS, HEARS_NOT, UNWATCHED, Report
 from zteleop.messages import Beat, Message, Pwm, Stop, WatchdogStatus
 from zteleop.nodes import watchdog as module
-from zteleop.nodes.watchdog import (
-    AT_MOST,
-    BLIND,
-    ENDS_WITHIN,
-    LATE,
-    LOOK_EVERY,
-    LOOKS,
-    PERIOD,
-    RESTS_WITHIN,
-    SILENCE,
-    START,
-    TELL_EVERY,
-    YIELD,
-    Watchdog,
-)
+from zteleop.nodes.watchdog import AT_MOST, ENDS_WITHIN, LOOK_EVERY, LOOKS, RESTS_WITHIN, YIELD, Watchdog
 
 NEUTRAL = {0: 1509.6, 1: 1530.0}
 MOVING = {0: 1600.0, 1: 1530.0}
@@ -156,7 +143,7 @@ class Kennel:
 
     def live(self, seconds: float) -> None:
         """Let the actuator report, and the watchdog do all that is due."""
-        for _ in range(round(seconds / PERIOD)):
+        for _ in range(round(seconds / STEP_EVERY)):
             if self.child.alive and (self.child.dead or not self.child.frozen):
                 self.hear_actuator()
             if self.child.alive and not self.child.frozen and self.child.beats:
@@ -164,7 +151,7 @@ class Kennel:
                 self.hear("beat", Beat(EPOCH, self.clock.time, 0.0))
             if self.child.alive and self.child.moves:
                 self.hand.pulses = dict(MOVING)
-            self.node.live(self.clock, PERIOD)
+            self.node.live(self.clock, STEP_EVERY)
 
     def hear_actuator(self) -> None:
         if FILE in self.node.watched:
@@ -185,7 +172,7 @@ class Kennel:
         began = self.clock.time
         while not condition():
             assert self.clock.time < began + patience, "it never came"
-            self.live(PERIOD)
+            self.live(STEP_EVERY)
         return self.clock.time - began
 
     @property
@@ -198,7 +185,7 @@ class Kennel:
 
     @property
     def status(self) -> WatchdogStatus:
-        self.node.timers[TELL_EVERY]()
+        self.node.timers[TOPICS["watchdog"].every]()
         return self.node.said["watchdog"].messages[-1]
 
 
@@ -245,7 +232,7 @@ def test_it_starts_the_actuator_and_lets_the_outputs_through_once_that_steps(
     assert told.count("READY=1") == 1
     silence = awake.status.silence
     assert awake.status == WatchdogStatus("watching", "the actuator steps", silence, False, False, 0, 0)
-    assert 0.0 <= silence <= 2 * PERIOD
+    assert 0.0 <= silence <= 2 * STEP_EVERY
 
 
 def test_it_says_20_times_a_second_that_it_watches_and_hears(awake: Kennel, told: list[str]) -> None:
@@ -262,9 +249,9 @@ def test_one_that_is_late_all_the_time_hears_silence_all_the_same(awake: Kennel)
     awake.child.frozen = True
     began = awake.clock.time
     while not awake.resting and awake.clock.time < began + 5.0:
-        awake.clock.pass_by(LATE + 0.01)
-        awake.node.live(awake.clock, 2 * PERIOD)
-    assert awake.clock.time - began <= 2 * SILENCE + LATE
+        awake.clock.pass_by(LATE_STEP + 0.01)
+        awake.node.live(awake.clock, 2 * STEP_EVERY)
+    assert awake.clock.time - began <= 2 * ACTUATOR_SILENCE + LATE_STEP
     assert awake.hand.pulses == NEUTRAL
 
 
@@ -286,7 +273,7 @@ def test_a_silent_actuator_is_killed_after_a_quarter_of_a_second(awake: Kennel) 
     awake.hear("pwm/keyboard", PUSH)
     awake.child.frozen = True
     seconds = awake.until(lambda: awake.resting)
-    assert seconds == pytest.approx(SILENCE, abs=2 * PERIOD)
+    assert seconds == pytest.approx(ACTUATOR_SILENCE, abs=2 * STEP_EVERY)
     assert awake.child.log[-1] == "end 0"
     assert awake.hand.pulses == NEUTRAL
     assert "it was silent for 0.2" in awake.node.errors[-1]
@@ -299,10 +286,10 @@ def test_a_starting_actuator_has_five_seconds_and_the_next_twice_as_long(
     monkeypatch.setattr(Watchdog, "_finish", lambda dog: None)
     kennel.child.frozen = True
     kennel.dog.run()
-    for number, seconds in enumerate((START, 2 * START, 4 * START), 1):
+    for number, seconds in enumerate((ACTUATOR_START, 2 * ACTUATOR_START, 4 * ACTUATOR_START), 1):
         errors = len(kennel.node.errors)
-        took = kennel.until(lambda: len(kennel.node.errors) > errors, 5 * START)  # noqa: B023
-        assert took == pytest.approx(seconds, abs=3 * PERIOD)
+        took = kennel.until(lambda: len(kennel.node.errors) > errors, 5 * ACTUATOR_START)  # noqa: B023
+        assert took == pytest.approx(seconds, abs=3 * STEP_EVERY)
         words = f"it did not step within {seconds:g} s of its start, and the next has {2 * seconds:g} s"
         assert words in kennel.node.errors[-1]
         kennel.until(lambda: kennel.child.starts > number)  # noqa: B023
@@ -312,7 +299,9 @@ def test_a_starting_actuator_has_five_seconds_and_the_next_twice_as_long(
     kennel.until(lambda: kennel.child.starts > 4)
     errors = len(kennel.node.errors)
     took = kennel.until(lambda: len(kennel.node.errors) > errors)
-    assert took == pytest.approx(START, abs=3 * PERIOD), "one that stepped has proved the machine fast"
+    assert took == pytest.approx(ACTUATOR_START, abs=3 * STEP_EVERY), (
+        "one that stepped has proved the machine fast"
+    )
 
 
 def test_an_actuator_that_ends_is_noticed_at_once_and_neutral_comes_first(awake: Kennel) -> None:
@@ -342,14 +331,14 @@ def test_after_a_pause_of_its_own_it_listens_before_it_judges(awake: Kennel) -> 
 def test_after_a_pause_of_its_own_a_dead_actuator_is_still_found(awake: Kennel) -> None:
     awake.child.frozen = True
     awake.clock.pass_by(3.0)
-    assert awake.until(lambda: awake.resting) == pytest.approx(SILENCE, abs=3 * PERIOD)
+    assert awake.until(lambda: awake.resting) == pytest.approx(ACTUATOR_SILENCE, abs=3 * STEP_EVERY)
 
 
 def test_pulses_that_somebody_may_drive_are_left_alone(awake: Kennel) -> None:
     awake.hand.pulses = dict(MOVING)
     for _ in range(200):
         awake.hear("pwm/keyboard", PUSH)
-        awake.live(PERIOD)
+        awake.live(STEP_EVERY)
     assert awake.shelf.stop is None
     status = awake.status
     assert (status.moving, status.allowed, status.commands) == (True, True, 200)
@@ -409,7 +398,7 @@ def test_a_stop_that_no_disk_keeps_is_told_to_every_actuator_that_starts(awake: 
 def test_a_stop_that_the_actuator_ignores_is_engaged(awake: Kennel) -> None:
     stop = Stop(engaged=True, id=5, by="ann", why="")
     awake.hear("stop", stop)
-    assert awake.until(lambda: awake.shelf.stop) <= GRACE + 3 * PERIOD
+    assert awake.until(lambda: awake.shelf.stop) <= GRACE + 3 * STEP_EVERY
     assert awake.shelf.stop == stop
     assert awake.node.errors == ["stops the robot: ann"]
     assert awake.child.stops == [stop]
@@ -461,7 +450,7 @@ def test_a_chip_on_a_bus_that_hangs_is_cut_off_as_well(awake: Kennel) -> None:
 def test_one_look_that_fails_cuts_nothing_however_long_it_took(awake: Kennel) -> None:
     take_long(awake, 0.5)
     awake.hand.broken.add("read")
-    awake.live(PERIOD * 5)
+    awake.live(STEP_EVERY * 5)
     assert awake.dog._blind == 1
     assert awake.enabled == [True]
 
@@ -548,14 +537,14 @@ def test_an_actuator_that_waits_for_a_slow_bus_is_not_killed_for_it(awake: Kenne
     awake.dog._look_took, awake.dog._look_after = 0.3, float("inf")
     awake.child.frozen = True
     seconds = awake.until(lambda: awake.resting)
-    assert SILENCE + 0.6 - PERIOD <= seconds <= SILENCE + 0.6 + 3 * PERIOD
+    assert ACTUATOR_SILENCE + 0.6 - STEP_EVERY <= seconds <= ACTUATOR_SILENCE + 0.6 + 3 * STEP_EVERY
 
 
 def test_however_long_a_look_took_an_actuator_that_stands_still_is_found(awake: Kennel) -> None:
     awake.dog._look_took, awake.dog._look_after = 3.0, float("inf")
     awake.child.frozen = True
     seconds = awake.until(lambda: awake.resting)
-    assert seconds <= SILENCE + AT_MOST + 3 * PERIOD
+    assert seconds <= ACTUATOR_SILENCE + AT_MOST + 3 * STEP_EVERY
 
 
 def test_looks_that_failed_under_one_actuator_do_not_cut_off_the_next(awake: Kennel) -> None:
@@ -577,7 +566,7 @@ def test_neutral_is_written_until_the_process_is_gone_as_well(awake: Kennel) -> 
     awake.until(lambda: awake.resting)
     awake.live(0.5)
     awake.hand.pulses = dict(MOVING)
-    awake.live(PERIOD)
+    awake.live(STEP_EVERY)
     assert (awake.hand.pulses, awake.child.starts) == (NEUTRAL, 1)
     awake.hand.log.clear()
     awake.live(0.5)
@@ -589,7 +578,7 @@ def test_neutral_is_written_until_the_process_is_gone_as_well(awake: Kennel) -> 
 def test_another_starts_after_the_childs_own_pause(awake: Kennel) -> None:
     awake.child.dead = True
     awake.hear_actuator()
-    assert awake.until(lambda: awake.restarted) == pytest.approx(PAUSE, abs=2 * PERIOD)
+    assert awake.until(lambda: awake.restarted) == pytest.approx(PAUSE, abs=2 * STEP_EVERY)
     assert awake.status.restarts == 1
 
 
@@ -698,7 +687,7 @@ def test_it_tries_for_two_seconds_to_leave_neutral_behind(kennel: Kennel) -> Non
     kennel.node.spin = spin
     began = kennel.clock.time
     kennel.dog.run()
-    assert kennel.clock.time - began == pytest.approx(0.5 + RESTS_WITHIN, abs=2 * PERIOD)
+    assert kennel.clock.time - began == pytest.approx(0.5 + RESTS_WITHIN, abs=2 * STEP_EVERY)
     assert kennel.hand.log[-1] == "close"
     assert kennel.enabled[-1] is False
 
@@ -724,15 +713,15 @@ def test_while_an_actuator_hangs_in_its_end_neutral_is_written_again_and_again(k
     kennel.node.spin = spin
     began = kennel.clock.time
     kennel.dog.run()
-    assert kennel.clock.time - began == pytest.approx(0.5 + ENDS_WITHIN, abs=2 * PERIOD)
-    assert kennel.hand.log.count("write") > ENDS_WITHIN / PERIOD
+    assert kennel.clock.time - began == pytest.approx(0.5 + ENDS_WITHIN, abs=2 * STEP_EVERY)
+    assert kennel.hand.log.count("write") > ENDS_WITHIN / STEP_EVERY
 
 
 def test_a_chip_that_was_never_there_is_not_waited_for_long(kennel: Kennel) -> None:
     kennel.hand.broken.add("start")
     began = kennel.clock.time
     kennel.dog.run()
-    assert kennel.clock.time - began < GRACE + 2 * PERIOD
+    assert kennel.clock.time - began < GRACE + 2 * STEP_EVERY
     assert kennel.node.errors == []
 
 
@@ -801,7 +790,7 @@ PRESSED = Stop(True, 7, "ann@desk", "a cat")
 def ask(kennel: Kennel, stop: Stop = PRESSED) -> Answered:
     """Say a stop as a datagram, and return what is answered at the next tick."""
     kennel.lane.ask(stop)
-    kennel.live(PERIOD)
+    kennel.live(STEP_EVERY)
     return kennel.lane.answers[-1]
 
 
@@ -818,7 +807,7 @@ def test_it_is_confirmed_by_a_look_since_the_actuator_obeyed(awake: Kennel) -> N
     answers = [ask(awake) for _ in range(5)]
     assert {(answer.held, answer.confirmed) for answer in answers} == {(True, "")}
     awake.child.obeys = True
-    awake.until(lambda: ask(awake).confirmed == "read", 2 * LOOK_EVERY + 2 * PERIOD)
+    awake.until(lambda: ask(awake).confirmed == "read", 2 * LOOK_EVERY + 2 * STEP_EVERY)
 
 
 def test_it_is_not_confirmed_while_the_chip_moves(awake: Kennel) -> None:
@@ -831,7 +820,7 @@ def test_it_is_not_confirmed_while_the_chip_moves(awake: Kennel) -> None:
 def test_one_that_moves_on_although_it_was_stopped_by_datagram_is_killed(awake: Kennel) -> None:
     awake.child.moves = True
     ask(awake)
-    assert awake.until(lambda: awake.resting) < GRACE + LOOKS * LOOK_EVERY + 2 * PERIOD
+    assert awake.until(lambda: awake.resting) < GRACE + LOOKS * LOOK_EVERY + 2 * STEP_EVERY
     awake.child.moves = False
     assert ask(awake).confirmed == "read"
 
@@ -844,7 +833,7 @@ def test_it_is_told_to_the_actuator_once_and_answered_each_time(awake: Kennel) -
 def test_after_its_release_the_same_stop_is_no_longer_held(awake: Kennel) -> None:
     ask(awake)
     awake.hear("stop", Stop(False, 7, "ann@desk", ""))
-    awake.live(PERIOD)
+    awake.live(STEP_EVERY)
     assert not ask(awake).held
     assert len(awake.child.stops) == 1
 
@@ -860,5 +849,5 @@ def test_without_an_actuator_it_is_kept_and_the_next_one_told(awake: Kennel) -> 
 def test_a_stop_that_no_disk_has_yet_is_answered_so(awake: Kennel) -> None:
     assert ask(awake).unkept == "it is being written"
     awake.shelf.stops.append(PRESSED)
-    awake.live(PERIOD)
+    awake.live(STEP_EVERY)
     assert ask(awake).unkept == ""
