@@ -3,7 +3,6 @@
 import signal
 import time
 from collections.abc import Callable
-from contextlib import suppress
 from types import FrameType
 
 from zteleop.bus import clock
@@ -14,7 +13,6 @@ from zteleop.bus.topics import TOPICS
 from zteleop.control.deadlines import (
     ACTUATOR_SILENCE,
     ACTUATOR_START,
-    BLIND,
     GRACE,
     LATE_STEP,
     LONGEST_START,
@@ -32,17 +30,14 @@ from zteleop.machine.link import CUT, HEARS, HEARS_NOT, UNWATCHED
 from zteleop.machine.sidecar import Recorder
 from zteleop.machine.stop_file import StopFile
 from zteleop.messages import Confirmed, Stop, WatchdogStatus
+from zteleop.nodes.hand import Hand
 from zteleop.nodes.overhear import Overhearing
 
 BEAT_EVERY = LOOK_EVERY = 0.05
 FORGIVE_EVERY = 2.0
 """s; a watchdog that is late all the time would otherwise hear no silence at all"""
-LOOKS = 2
-"""in a row that fail besides, until a chip's outputs are cut"""
 PER_LOOK, AT_MOST = 2, 1.0
 """times what a look took, and s, that the actuator may be silent in addition: it waits for the same bus"""
-YIELD = 5
-"""times as long as a look took, until the next one"""
 _LONGEST = 200
 """characters of a reason in an answer"""
 ENDS_WITHIN = 0.25
@@ -56,19 +51,17 @@ class Watchdog:
         self,
         node: Node,
         settings: DriveSettings,
-        hand: PulseDriver,
+        chip: PulseDriver,
         child: Child,
         stop_file: StopFile,
         enable: Callable[[bool], bool] = lambda on: False,
         recorder: Recorder | None = None,
         lane: Ear | None = None,
     ) -> None:
-        self._node, self._hand, self._child, self._stop_file = node, hand, child, stop_file
+        self._node, self._child, self._stop_file = node, child, stop_file
         self._recorder, self._lane = recorder, lane
-        self._enable = enable
-        """Lets the chip's outputs through, or cuts them; says whether a pin did."""
-        self._is_cut, self._pin_cuts = True, False
-        self._judge = Judge(settings, hand.tick_us, clock.now())
+        self._judge = Judge(settings, chip.tick_us, clock.now())
+        self._hand = Hand(chip, enable, self._judge)
         self._ears = Overhearing(node, settings, self._judge, stop_file)
         self._statuses = node.publisher("watchdog", WatchdogStatus)
         self._ticked, self._woke = clock.now(), float("-inf")
@@ -76,13 +69,6 @@ class Watchdog:
         self._start_patience = ACTUATOR_START
         self._standing: Standing | None = None
         """Of the actuator that is gone, where it was only late."""
-        self._look_after = self._seen = clock.now()
-        self._look_took = 0.0
-        self._blind = 0
-        """How many looks in a row have failed"""
-        self._at_rest = False
-        self._trouble = ""
-        """Why the chip cannot be read."""
         self._obeyed: float | None = None
         """Since when the actuator rests for a stop."""
         self._why = "the actuator starts"
@@ -134,8 +120,7 @@ class Watchdog:
     def _greet(self) -> None:
         """Let the outputs through, and tell a new actuator of stops that may be on no disk."""
         self._why, self._start_patience = "the actuator steps", ACTUATOR_START
-        self._seen, self._blind = clock.now(), 0
-        self._cut(False)
+        self._hand.let_through()
         for stop in self._ears.stops:
             self._tell_stop(stop)
         systemd.notify("READY=1")
@@ -162,7 +147,7 @@ class Watchdog:
         """
         limit = self._start_patience
         if self._child.ready:
-            limit = ACTUATOR_SILENCE + min(PER_LOOK * self._look_took, AT_MOST)
+            limit = ACTUATOR_SILENCE + min(PER_LOOK * self._hand.took, AT_MOST)
         return min(self._child.silence(now), now - self._woke) > limit
 
     def _lose_patience(self, now: float) -> str:
@@ -177,39 +162,26 @@ class Watchdog:
         hears = self._ears.hears(report.standing.epoch if report else None, clock.now())
         if self._child.link:
             word = HEARS if hears else HEARS_NOT
-            self._child.link.say(CUT[word] if self._pin_cuts else word)
+            self._child.link.say(CUT[word] if self._hand.pin_cuts else word)
         systemd.notify("WATCHDOG=1")
 
     def _look(self) -> None:
         """Read the chip; what moves without a reason is stopped, and what does not obey that is killed."""
-        began = clock.now()
-        if self._restart_at is not None or not self._child.ready or began < self._look_after:
+        if self._restart_at is not None or not self._child.ready or not self._hand.is_due(clock.now()):
             return
         try:
-            why = self._judge.look(self._hand.read(self._judge.neutral_us), clock.now())
+            why = self._judge.look(self._hand.look(), clock.now())
         except DeviceError as error:
-            self._trouble = str(error)
             self._node.log.warn(f"cannot read the chip: {error}", "read")
-            self._miss()
+            if self._hand.miss():
+                self._node.log.error("the chip cannot be read: its outputs are cut until it can")
             return
-        finally:  # on a slow bus whoever writes comes first
-            self._look_took = clock.now() - began
-            self._look_after = began + YIELD * self._look_took
-        self._seen, self._blind, self._trouble = clock.now(), 0, ""
         if why and not self._judge.stopped:
             self._engage(Stop(engaged=True, id=new_id(), by="the watchdog", why=why))
         elif why:
             self._fell(why, 0.0)
-        elif self._is_cut and self._child.ready and not self._judge.moving:
-            self._cut(False)
-
-    def _miss(self) -> None:
-        """Cut the outputs of a chip that nobody can read any more."""
-        self._blind += 1
-        if self._blind >= LOOKS and clock.now() - self._seen > BLIND and not self._is_cut:
-            self._cut(True)
-            if self._pin_cuts:
-                self._node.log.error("the chip cannot be read: its outputs are cut until it can")
+        elif self._hand.is_cut and self._child.ready and not self._judge.moving:
+            self._hand.cut(False)
 
     def _engage(self, stop: Stop) -> None:
         self._node.log.error(f"stops the robot: {stop.why or stop.by}")
@@ -223,24 +195,23 @@ class Watchdog:
         stop = heard.asked.stop
         if self._ears.hear_stop(stop, now):
             if not self._never_stepped:
-                with suppress(DeviceError):  # the actuator, or the next look, sees to it that it stays there
-                    self._hand.write(self._judge.neutral_us)
+                self._hand.write_neutral()  # the actuator, or the next look, sees to it that it stays there
             self._tell_stop(stop)
             if not self._child.link:  # nobody else keeps it
                 self._stop_file.add(stop)
         holds = self._ears.holds(stop)
         confirmed = self._confirmed() if holds else ""
         unkept = "" if self._ears.keeps(stop) else self._stop_file.unkept or "it is being written"
-        trouble = self._trouble[:_LONGEST]
+        trouble = self._hand.trouble[:_LONGEST]
         heard.answer(Answered(heard.asked.robot, stop.id, holds, confirmed, unkept[-_LONGEST:], trouble))
 
     def _confirmed(self) -> Confirmed:
         """Say how a robot with a stop in force is known to stand: by a look since its actuator obeyed."""
-        if self._pin_cuts:
+        if self._hand.pin_cuts:
             return "cut"
         if self._restart_at is not None:
-            return "read" if self._at_rest else ""
-        return "read" if self._obeyed and self._seen > self._obeyed and not self._judge.moving else ""
+            return "read" if self._hand.at_rest else ""
+        return "read" if self._obeyed and self._hand.seen > self._obeyed and not self._judge.moving else ""
 
     def _tell_stop(self, stop: Stop) -> None:
         if self._child.link:
@@ -280,35 +251,16 @@ class Watchdog:
     def _keep_at_rest(self, now: float) -> None:
         """Write neutral until it is there and nobody else can write, then start another actuator."""
         gone = self._child.gone
-        if not (self._at_rest and gone):
+        if not (self._hand.at_rest and gone):
             self._rest()
         elif self._restart_at is not None and now >= self._restart_at:
             self._start()
 
     def _rest(self) -> None:
-        """Write neutral, read it back, and bring up a chip that does not hold it; else cut the outputs."""
-        neutral_us = self._judge.neutral_us
-        if not self._never_stepped:  # a chip that another program left running may have another period
-            with suppress(DeviceError):  # it may be what comes next that gets through
-                self._hand.write(neutral_us)
-        try:
-            self._at_rest = self._reads_neutral()
-            if not self._at_rest:
-                self._hand.start(neutral_us)
-                self._at_rest = self._reads_neutral()
-        except DeviceError as error:
-            self._at_rest = False
-            if not self._never_stepped:
-                self._node.log.error(f"cannot bring the chip to rest: {error}", "rest")
-        if not self._at_rest:
-            self._cut(True)
-
-    def _reads_neutral(self) -> bool:
-        return self._judge.at_rest(self._hand.read(self._judge.neutral_us))
-
-    def _cut(self, cut: bool) -> None:
-        self._is_cut = cut
-        self._pin_cuts = self._enable(not cut) and cut
+        """Bring the chip to rest."""
+        trouble = self._hand.rest(at_once=not self._never_stepped)
+        if trouble and not self._never_stepped:
+            self._node.log.error(f"cannot bring the chip to rest: {trouble}", "rest")
 
     def _finish(self) -> None:
         """Leave last, after neutral."""
@@ -321,10 +273,9 @@ class Watchdog:
         self._child.end(0.0)
         give_up = clock.now() + (GRACE if self._never_stepped else RESTS_WITHIN)
         self._rest()
-        while not self._at_rest and clock.now() < give_up:
+        while not self._hand.at_rest and clock.now() < give_up:
             time.sleep(STEP_EVERY)
             self._rest()
-        self._cut(True)
         self._hand.close()
         if self._recorder:
             self._recorder.end()

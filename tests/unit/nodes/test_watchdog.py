@@ -19,7 +19,8 @@ from zteleop.machine import systemd
 from zteleop.machine.link import CUT, HEARS, HEARS_NOT, UNWATCHED, Report
 from zteleop.messages import Beat, Message, Pwm, Stop, WatchdogStatus
 from zteleop.nodes import watchdog as module
-from zteleop.nodes.watchdog import AT_MOST, ENDS_WITHIN, LOOK_EVERY, LOOKS, RESTS_WITHIN, YIELD, Watchdog
+from zteleop.nodes.hand import MISSES, YIELD
+from zteleop.nodes.watchdog import AT_MOST, ENDS_WITHIN, LOOK_EVERY, RESTS_WITHIN, Watchdog
 
 NEUTRAL = {0: 1509.6, 1: 1530.0}
 MOVING = {0: 1600.0, 1: 1530.0}
@@ -451,7 +452,7 @@ def test_one_look_that_fails_cuts_nothing_however_long_it_took(awake: Kennel) ->
     take_long(awake, 0.5)
     awake.hand.broken.add("read")
     awake.live(STEP_EVERY * 5)
-    assert awake.dog._blind == 1
+    assert awake.dog._hand._missed == 1
     assert awake.enabled == [True]
 
 
@@ -534,14 +535,14 @@ def test_its_looks_leave_a_slow_bus_to_whoever_writes(awake: Kennel) -> None:
 
 def test_an_actuator_that_waits_for_a_slow_bus_is_not_killed_for_it(awake: Kennel) -> None:
     """Its looks tell how slow the bus is: as many transfers are between two steps of an actuator."""
-    awake.dog._look_took, awake.dog._look_after = 0.3, float("inf")
+    awake.dog._hand.took, awake.dog._hand._look_after = 0.3, float("inf")
     awake.child.frozen = True
     seconds = awake.until(lambda: awake.resting)
     assert ACTUATOR_SILENCE + 0.6 - STEP_EVERY <= seconds <= ACTUATOR_SILENCE + 0.6 + 3 * STEP_EVERY
 
 
 def test_however_long_a_look_took_an_actuator_that_stands_still_is_found(awake: Kennel) -> None:
-    awake.dog._look_took, awake.dog._look_after = 3.0, float("inf")
+    awake.dog._hand.took, awake.dog._hand._look_after = 3.0, float("inf")
     awake.child.frozen = True
     seconds = awake.until(lambda: awake.resting)
     assert seconds <= ACTUATOR_SILENCE + AT_MOST + 3 * STEP_EVERY
@@ -556,7 +557,7 @@ def test_looks_that_failed_under_one_actuator_do_not_cut_off_the_next(awake: Ken
     awake.until(lambda: awake.restarted)
     awake.hand.broken.add("read")
     awake.live(0.2)
-    assert awake.dog._blind >= LOOKS
+    assert awake.dog._hand._missed >= MISSES
     assert awake.enabled == [True, True]
 
 
@@ -820,7 +821,7 @@ def test_it_is_not_confirmed_while_the_chip_moves(awake: Kennel) -> None:
 def test_one_that_moves_on_although_it_was_stopped_by_datagram_is_killed(awake: Kennel) -> None:
     awake.child.moves = True
     ask(awake)
-    assert awake.until(lambda: awake.resting) < GRACE + LOOKS * LOOK_EVERY + 2 * STEP_EVERY
+    assert awake.until(lambda: awake.resting) < GRACE + MISSES * LOOK_EVERY + 2 * STEP_EVERY
     awake.child.moves = False
     assert ask(awake).confirmed == "read"
 
