@@ -7,10 +7,10 @@ from zteleop.bus import clock, codec
 from zteleop.bus.answer import Answer
 from zteleop.bus.heard import Heard
 from zteleop.bus.session import Outlet
-from zteleop.control.command import neutral
+from zteleop.control.command import moves, neutral
 from zteleop.control.proof import Prover
 from zteleop.errors import BusError, MessageError
-from zteleop.messages import Int16MultiArray, Message, Pwm, Twist, TwistStamped, Vehicle
+from zteleop.messages import Message
 
 M = TypeVar("M", bound=Message)
 
@@ -114,16 +114,3 @@ class Publisher(Generic[M]):
             self._answer.heed(moving)
         proof = self._prover.prove(self._heard.beat, moving, clock.now())
         return codec.pack_proof(proof) if proof else None
-
-
-def moves(message: Message, vehicle: Vehicle | None) -> bool:
-    """Say whether a command is anything but neutral."""
-    if isinstance(message, TwistStamped):
-        message = message.twist
-    if isinstance(message, Twist):
-        return message.linear.x != 0 or message.angular.z != 0
-    neutral = {channel.name: channel.neutral_ticks for channel in vehicle.channels} if vehicle else {}
-    rest = (neutral.get("steering"), neutral.get("throttle"))
-    if isinstance(message, Pwm):
-        return (message.steering_ticks, message.throttle_ticks) != rest
-    return not isinstance(message, Int16MultiArray) or tuple(message.data[:2]) != rest

@@ -40,7 +40,7 @@ def run(arguments: argparse.Namespace) -> None:
 def drive_with_keys(node: Node, settings: Config, drive: str | None = None) -> None:
     """Show the keyboard screen and drive until the operator has enough."""
     vehicle = find_vehicle(node, settings)
-    drive = drive or ("step" if vehicle.kind == "ackermann" else "hold")
+    drive = drive or ("step" if vehicle.takes_ticks else "hold")
     node.log.show = lambda line: None  # nothing prints over the screen: it shows the log itself
     keyboard = Keyboard("step" if drive == "step" else "hold", speeds=settings.speeds, steps=settings.steps)
     paint = painter(keyboard, node.robot or "", settings.steps)

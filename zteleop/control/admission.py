@@ -7,7 +7,6 @@ from zteleop.control.deadlines import HEARD_LATE
 from zteleop.control.foreign import Foreigners
 from zteleop.control.gate import Gate, Refusal
 from zteleop.control.hold import PAUSE, Holds
-from zteleop.control.mixer import Ackermann
 from zteleop.control.mux import Claim, Claims, Mux, Silences
 from zteleop.control.proof import NEVER, Proof
 from zteleop.control.refusals import RefusedSources
@@ -166,7 +165,7 @@ class Admission:
         return state, why
 
     def _hear(self, source: str, command: Twist | Pwm, proof: Proof | None, now: float) -> Verdict:
-        if isinstance(command, Pwm) and not isinstance(self._settings.mixer, Ackermann):
+        if isinstance(command, Pwm) and not self._settings.mixer.takes_ticks:
             return Verdict(Refusal.NO_SUCH_CHANNEL)
         moving, beat = self._moves(command), self.beat(now)
         unproven = proof is None and self.foreign.trusted(source)
@@ -221,4 +220,4 @@ class Admission:
     def _moves(self, command: Twist | Pwm) -> bool:
         if isinstance(command, Pwm):
             return not self._calibration.neutral(command)
-        return command.linear.x != 0 or command.angular.z != 0
+        return command.moves

@@ -22,8 +22,21 @@ def neutral(kind: type[Message], vehicle: Vehicle | None) -> Message | None:
     """Return the neutral command of a type, if there is one; of pulses, 0 is none."""
     if not issubclass(kind, Pwm | Int16MultiArray):
         return kind.zero()
-    if vehicle is None or vehicle.kind != "ackermann":
+    if vehicle is None or not vehicle.takes_ticks:
         return None
     pwm = neutral_pwm(vehicle)
     ticks = [pwm.steering_ticks, pwm.throttle_ticks]
     return pwm if issubclass(kind, Pwm) else Int16MultiArray(MultiArrayLayout.zero(), ticks)
+
+
+def moves(message: Message, vehicle: Vehicle | None) -> bool:
+    """Say whether a command is anything but neutral."""
+    if isinstance(message, TwistStamped):
+        message = message.twist
+    if isinstance(message, Twist):
+        return message.moves
+    neutral = {channel.name: channel.neutral_ticks for channel in vehicle.channels} if vehicle else {}
+    rest = (neutral.get("steering"), neutral.get("throttle"))
+    if isinstance(message, Pwm):
+        return (message.steering_ticks, message.throttle_ticks) != rest
+    return not isinstance(message, Int16MultiArray) or tuple(message.data[:2]) != rest

@@ -5,7 +5,7 @@ from typing import Annotated
 from msgspec import Meta, Struct
 
 from zteleop.control import curvature
-from zteleop.control.mixer import Ackermann, Mixer, Wheels
+from zteleop.control.mixer import Mixer, Wheels
 from zteleop.control.servo import Servo
 from zteleop.messages import Twist
 
@@ -42,7 +42,7 @@ class TwistLimiter:
 
     def __init__(self, limits: Limits, mixer: Mixer) -> None:
         self._limits = limits
-        self._steers = isinstance(mixer, Ackermann)
+        self._steers = mixer.steers
         self._speed, self._turn = limits.speed_of(mixer), limits.turn_of(mixer)
         self._last = (0.0, 0.0)
         self._then: float | None = None
@@ -90,7 +90,7 @@ class WheelLimiter:
     def __init__(self, limits: Limits, mixer: Mixer, servos: dict[str, Servo]) -> None:
         self._limits, self._mixer = limits, mixer
         self._rates = {name: servo.slew_rate for name, servo in servos.items()}
-        if isinstance(mixer, Ackermann) and self._rates["throttle"] is None:
+        if mixer.takes_ticks and self._rates["throttle"] is None:  # ticks pass the limiter of twists by
             self._rates["throttle"] = limits.acceleration / mixer.max_speed
         self._rest: Wheels = dict.fromkeys(servos, 0.0)
         self._last: Wheels = self._rest

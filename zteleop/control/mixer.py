@@ -25,6 +25,8 @@ class Ackermann(Struct, frozen=True, tag_field="kind", tag="ackermann", forbid_u
     max_speed: Positive = 3.0
     """m/s at full throttle"""
 
+    kind = "ackermann"
+    steers = takes_ticks = True
     driven = frozenset({"throttle"})
     wheels = frozenset({"throttle", "steering"})
 
@@ -54,6 +56,8 @@ class Differential(Struct, frozen=True, tag_field="kind", tag="differential", fo
     max_speed: Positive = 1.0
     """m/s of a wheel at full throttle"""
 
+    kind = "differential"
+    steers = takes_ticks = False
     driven = frozenset({"left", "right"})
     wheels = frozenset({"left", "right"})
     wheelbase = 0.0

@@ -12,7 +12,7 @@ def to_vehicle(settings: DriveSettings, tick_us: float, ready: bool = True) -> V
     """Return what an input must know of a robot; `tick_us` is the chip's."""
     mixer, limits = settings.mixer, settings.limits
     return Vehicle(
-        kind="ackermann" if mixer.max_steering_angle else "differential",
+        kind=mixer.kind,
         channels=[servo.to_channel(name, tick_us) for name, servo in settings.servos.items()],
         tick_us=tick_us,
         ready=ready,

@@ -37,7 +37,7 @@ def to_twist(stick: Stick, speeds: Speeds, vehicle: Vehicle) -> Twist | None:
     if not stick.deadman:
         return None
     speed = stick.forward * min(speeds.forward, vehicle.max_speed)
-    if vehicle.kind == "ackermann":
+    if vehicle.steers:
         return Twist.planar(speed, curvature.turn(speed, stick.turn * tightest(vehicle)))
     return Twist.planar(speed, stick.turn * min(speeds.turn, vehicle.max_turn))
 

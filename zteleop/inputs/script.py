@@ -27,7 +27,7 @@ class Script:
     def fit(self, vehicle: Vehicle) -> None:
         """Choose the turn that closes each half to a circle, or the tightest there is."""
         speed = min(self.speeds.forward, vehicle.max_speed)
-        car = vehicle.kind == "ackermann"
+        car = vehicle.steers
         full = speed * tightest(vehicle) if car else min(self.speeds.turn, vehicle.max_turn)
         self._turn = min(1.0, 4 * pi / (self.duration * full)) if full else 0.0
 

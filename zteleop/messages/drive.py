@@ -53,7 +53,8 @@ class Vehicle(Message):
 
     ros_type: ClassVar[str] = "zteleop_msgs/msg/Vehicle"
 
-    kind: Literal["ackermann", "differential"]
+    kind: str
+    """What its mixer is called."""
     channels: list[Channel]
     max_speed: float
     max_turn: float
@@ -68,6 +69,16 @@ class Vehicle(Message):
     """us of one count of the chip."""
     ready: bool
     """Its start is over: whoever begins now may drive it, unless it is stopped."""
+
+    @property
+    def steers(self) -> bool:
+        """Whether it turns by wheels that steer, and so not on the spot."""
+        return self.max_steering_angle > 0
+
+    @property
+    def takes_ticks(self) -> bool:
+        """Whether the pulses of a steering and a throttle drive it."""
+        return {"steering", "throttle"} <= {channel.name for channel in self.channels}
 
 
 class Pulse(Message):

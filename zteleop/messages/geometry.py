@@ -33,6 +33,11 @@ class Twist(Message):
         """Return the twist of a ground robot; a positive angular turns to the left."""
         return cls(Vector3(float(linear), 0.0, 0.0), Vector3(0.0, 0.0, float(angular)))
 
+    @property
+    def moves(self) -> bool:
+        """Whether a ground robot moves by it."""
+        return self.linear.x != 0 or self.angular.z != 0
+
 
 class TwistStamped(Message):
     ros_type: ClassVar[str] = "geometry_msgs/msg/TwistStamped"

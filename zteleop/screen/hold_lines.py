@@ -5,7 +5,7 @@ from zteleop.screen.dashboard import TABLE, Dashboard, Line, line
 
 
 def hold_lines(d: Dashboard, columns: int) -> list[Line]:
-    turns = d.vehicle is None or d.vehicle.kind != "ackermann"
+    turns = d.vehicle is None or not d.vehicle.steers
     applied = d.status.applied if d.status else None
     full = f"{d.speeds.forward:.2f}", f"{d.speeds.turn:.2f}" if turns else "full lock"
     if columns < TABLE:

@@ -140,7 +140,7 @@ def steering_angle(d: Dashboard) -> float:
 def key_lines(d: Dashboard, columns: int) -> list[Line]:
     stopped = d.status is not None and bool(d.status.stops)
     keys: Iterable[tuple[str, str]] = [STOP, *([RELEASE] if stopped else []), *KEYS[d.drive]]
-    if d.vehicle is not None and d.vehicle.kind == "ackermann":
+    if d.vehicle is not None and d.vehicle.steers:
         keys = [(key, does) for key, does in keys if key != "i/k"]
     lines: list[list[Span]] = [[]]
     for key, does in keys:

@@ -139,7 +139,7 @@ def draw_robot(
     canvas: Canvas, here: Dot, heading: float, steering: float, vehicle: Vehicle | None, length: float
 ) -> None:
     """Draw the body, and four wheels of which the front ones steer, or two."""
-    tank = vehicle is not None and vehicle.kind == "differential"
+    tank = vehicle is not None and not vehicle.steers
     middle = (round(here[0]), round(here[1]))
 
     def place(ahead: float, left: float) -> Dot:

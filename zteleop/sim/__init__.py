@@ -20,4 +20,4 @@ def make_vehicle(mixer: Mixer, servos: Mapping[str, Servo]) -> Body:
     if missing := sorted(mixer.wheels - servos.keys()):
         found = ", ".join(sorted(servos)) or "none"
         raise ConfigError(f"a vehicle of this kind needs servos for {', '.join(missing)}; found {found}")
-    return VEHICLES[str(mixer.__struct_config__.tag)](mixer, servos)
+    return VEHICLES[mixer.kind](mixer, servos)

@@ -5,8 +5,9 @@ from zteleop.bus import codec
 from zteleop.bus.answer import Answer
 from zteleop.bus.heard import Heard
 from zteleop.bus.log import NodeLog
-from zteleop.bus.publisher import Publisher, moves
+from zteleop.bus.publisher import Publisher
 from zteleop.bus.subscription import Subscription
+from zteleop.control.command import moves
 from zteleop.control.mixer import Differential
 from zteleop.control.proof import NEVER, Proof, Prover
 from zteleop.control.report import to_vehicle

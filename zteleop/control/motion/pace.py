@@ -17,7 +17,7 @@ ROOM = 1.25
 
 def least_radius(vehicle: Vehicle) -> float:
     """Return the m of the tightest circle that a vehicle drives; 0 where it turns on the spot."""
-    return 1 / tightest(vehicle) if vehicle.kind == "ackermann" else 0.0
+    return 1 / tightest(vehicle) if vehicle.steers else 0.0
 
 
 def easy_radius(vehicle: Vehicle) -> float:
@@ -43,7 +43,7 @@ def turn_speed(vehicle: Vehicle) -> float:
 
 def _half_track(vehicle: Vehicle) -> float:
     """Return the m from the middle to a wheel that the vehicle's own bounds amount to; of a car, nothing."""
-    if vehicle.kind == "ackermann":
+    if vehicle.steers:
         return 0.0
     return vehicle.max_speed / vehicle.max_turn if vehicle.max_turn else inf
 

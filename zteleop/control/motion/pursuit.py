@@ -38,7 +38,7 @@ class Pursuit(Struct):
             return None
         ahead, beside = pose.local(self.x, self.y)
         speed = min(self.speed, max(NEAR * left, min(SLOWEST * self.speed, CREEP)))
-        if self.vehicle.kind == "ackermann":
+        if self.vehicle.steers:
             return self._steer(speed, ahead, beside)
         return self._turn(speed, atan2(beside, ahead))
 
