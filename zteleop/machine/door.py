@@ -15,6 +15,8 @@ ALIVE = b"."
 ALIVE_EVERY = 0.05
 LARGEST = 192 * 2**20
 """bytes of memory; strangers fill it, and the robot's own processes need the rest of the machine"""
+MALLOC = {"MALLOC_ARENA_MAX": "1"}
+"""for glibc: where each thread has an arena of its own, what thousands of sessions leave is not used again"""
 WEIGH_EVERY = 0.5
 FIRST_PAUSE, LONGEST_PAUSE = 0.1, 5.0
 """s between an end and the next start, doubled each time; none at first, and once one has lived for STEADY"""
@@ -64,6 +66,7 @@ class Door:
                 stdin=subprocess.PIPE,
                 pass_fds=files,
                 start_new_session=True,
+                env=MALLOC | os.environ,
             )
         assert self._process.stdin
         with suppress(BrokenPipeError), self._process.stdin as ear:
