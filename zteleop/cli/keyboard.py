@@ -44,8 +44,15 @@ def drive_with_keys(node: Node, settings: Config, drive: str | None = None) -> N
     node.log.show = lambda line: None  # nothing prints over the screen: it shows the log itself
     keyboard = Keyboard("step" if drive == "step" else "hold", speeds=settings.speeds, steps=settings.steps)
     paint = painter(keyboard, node.robot or "", settings.steps)
+
+    def show(view: View) -> None:
+        if keyboard.suspending:
+            keyboard.suspend(clock.now())  # its last word is said
+        else:
+            paint(view)
+
     with keyboard, Call(settings.bus) as lane:
-        Teleop(node, keyboard, "keyboard", vehicle, paint, lane).run()
+        Teleop(node, keyboard, "keyboard", vehicle, show, lane).run()
 
 
 def find_vehicle(node: Node, settings: Config) -> Vehicle:
@@ -61,14 +68,11 @@ def find_vehicle(node: Node, settings: Config) -> Vehicle:
 
 
 def painter(keyboard: Keyboard, robot: str, steps: Steps) -> Callable[[View], None]:
-    """Return what draws the screen, and stops the process when Ctrl-Z asked for it."""
+    """Return what draws the screen."""
     trail: deque[tuple[float, float]] = deque(maxlen=TRAIL)
 
     def paint(view: View) -> None:
         follow(trail, view)
-        if keyboard.suspending:
-            keyboard.suspend(clock.now())
-            return
         terminal = keyboard.terminal
         columns, rows = terminal.size()
         dashboard = Dashboard(

@@ -1,9 +1,19 @@
 """Where acts come from: one file per device."""
 
+from enum import Enum
 from typing import Literal, Protocol, Self
 
 from zteleop.control.stick import Speeds, Stick
 from zteleop.messages import Vehicle
+
+
+class Wish(Enum):
+    """What an operator may want besides driving."""
+
+    STOP = "stop"
+    """the robot, until that is released"""
+    RELEASE = "release"
+    """what stops it"""
 
 
 class Input(Protocol):
@@ -17,8 +27,8 @@ class Input(Protocol):
     """The operator asked to end."""
     rested: bool
     """It was at neutral since this was last taken, be it between two acts that came at once"""
-    stop_wish: bool | None
-    """True to stop the robot until released, False to release it; whoever takes the wish leaves None."""
+    wish: Wish | None
+    """What it asks of the robot besides; whoever takes it leaves None. A release never takes back a stop."""
 
     def fileno(self) -> int | None:
         """Return what turns readable when something was done; None for a device without a file."""

@@ -3,6 +3,7 @@
 from typing import Literal, Self
 
 from zteleop.control.stick import Speeds, Stick
+from zteleop.inputs import Wish
 from zteleop.inputs.gamepad_map import FORGET, GamepadSettings, Moved, Pads, rescale
 from zteleop.messages import Vehicle
 
@@ -24,7 +25,7 @@ class Gamepad:
         self.settings = settings or GamepadSettings()
         self.finished = False
         self.rested = False
-        self.stop_wish: bool | None = None
+        self.wish: Wish | None = None
         self.silence = self.settings.silence
         self._pads = pads
         self._controls = self.settings.controls
@@ -90,7 +91,7 @@ class Gamepad:
 
     def stop_robot(self, now: float) -> None:
         """Go neutral and ask for a stop that stays."""
-        self.stop_wish = True
+        self.wish = Wish.STOP
         self.reset(now)
 
     @property
@@ -148,7 +149,7 @@ class Gamepad:
             self._release_since = None
         elif self._release_since is not None and now - self._release_since >= RELEASE_HELD:
             self._release_since = None
-            self.stop_wish = self.stop_wish or False
+            self.wish = self.wish or Wish.RELEASE
 
     def _name(self, use: str) -> str | None:
         return self._controls[use].name if use in self._controls else None

@@ -7,6 +7,7 @@ from msgspec.structs import replace
 
 from zteleop.control.stick import Speeds, Stick
 from zteleop.errors import DeviceError
+from zteleop.inputs import Wish
 from zteleop.inputs.held_keys import FIRST, REPEATING, Block, HeldKeys
 from zteleop.inputs.keymap import DIRECTIONS, bindings
 from zteleop.inputs.levers import Axis, Levers, Steps
@@ -41,7 +42,7 @@ class Keyboard:
         self.drive: Literal["step", "hold"] = drive
         self.speeds = speeds or Speeds()
         self.finished = self.rested = False
-        self.stop_wish: bool | None = None
+        self.wish: Wish | None = None
         self.suspending = False
         """Ctrl-Z was pressed: publish neutral, then call `suspend`."""
         self.idle_limit = IDLE_LIMIT
@@ -55,7 +56,7 @@ class Keyboard:
         self._now = 0.0
         self._acted = float("-inf")
         self._resumed = 0
-        self._wished = {True: float("-inf"), False: float("-inf")}
+        self._asked = dict.fromkeys(Wish, float("-inf"))
 
     def __enter__(self) -> Self:
         self.terminal.__enter__()
@@ -135,7 +136,7 @@ class Keyboard:
             ACTIONS[action](self)
 
     def _drive(self, key: str, axis: Axis, sign: int) -> None:
-        if not self._block.passes(key, self._now) or self.stop_wish:
+        if not self._block.passes(key, self._now) or self.wish is Wish.STOP:
             return
         if self.drive == "step":
             self._levers.press(axis, sign)
@@ -155,16 +156,16 @@ class Keyboard:
     def stop_robot(self) -> None:
         """Go neutral and ask for a stop that stays; a key that repeats is one press."""
         self.reset(self._now)
-        self._wish(True, REPEATING)
+        self._ask(Wish.STOP, REPEATING)
 
     def release_robot(self) -> None:
         """Ask for the release of the stop; held down, never of one that came later."""
-        self._wish(False, FIRST)
+        self._ask(Wish.RELEASE, FIRST)
 
-    def _wish(self, stop: bool, gap: float) -> None:
-        if self._now - self._wished[stop] > gap:
-            self.stop_wish = self.stop_wish or stop
-        self._wished[stop] = self._now
+    def _ask(self, wish: Wish, gap: float) -> None:
+        if self._now - self._asked[wish] > gap and self.wish is not Wish.STOP:
+            self.wish = wish
+        self._asked[wish] = self._now
 
     def quit(self) -> None:
         """Ask the program to end, neutral."""

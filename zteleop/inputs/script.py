@@ -4,6 +4,7 @@ from math import pi
 from typing import Literal, Self
 
 from zteleop.control.stick import Speeds, Stick, tightest
+from zteleop.inputs import Wish
 from zteleop.messages import Vehicle
 
 
@@ -17,7 +18,7 @@ class Script:
         self.speeds = speeds or Speeds()
         self.finished = False
         self.rested = False
-        self.stop_wish: bool | None = None
+        self.wish: Wish | None = None
         self._began: float | None = None
         self._turn = 0.5
 

@@ -7,10 +7,7 @@ from zteleop.bus.topics import TOPICS
 from zteleop.control.command import to_command
 from zteleop.control.deadlines import STEP_EVERY, WATCHDOG_SILENCE
 from zteleop.control.drive import Drive
-from zteleop.control.explain import layers
 from zteleop.control.proof import called
-from zteleop.control.refusals import RefusedSenders
-from zteleop.control.report import refusals, status, to_vehicle
 from zteleop.control.settings import DriveSettings
 from zteleop.control.standing import NOBODY, Standing, go_on, stand
 from zteleop.control.stop import stopped_by
@@ -20,16 +17,9 @@ from zteleop.machine.health import LOOK_EVERY, Health
 from zteleop.machine.ids import new_id
 from zteleop.machine.link import UNWATCHED, ActuatorEnd, Report
 from zteleop.machine.stop_file import StopFile
-from zteleop.messages import (
-    Beat,
-    DriveStatus,
-    Message,
-    Refusals,
-    Stop,
-    Vehicle,
-    Why,
-)
+from zteleop.messages import Message, Stop
 from zteleop.nodes.output import Output
+from zteleop.nodes.state_publisher import StatePublisher
 from zteleop.recording.journal import Journal
 
 AT_MOST_EVERY = 0.005
@@ -61,15 +51,18 @@ class Actuator:
         health: Health | None = None,
         standing: Standing | None = None,
     ) -> None:
-        self._node, self._settings, self._driver = node, settings, driver
-        self._link, self._stop_file, self._journal = link, stop_file, journal
+        self._node = node
+        self._settings = settings
+        self._link = link
+        self._stop_file = stop_file
+        self._journal = journal
         self._health = health
         now = self._since = clock.now()
         self._drive = Drive(settings, driver.tick_us, standing.epoch if standing else new_id(), now)
         self._output = Output(driver, self._drive, self._tell_chip)
         # Whoever drove had an ESC that was armed, and the watchdog has kept the chip at neutral since.
         self._output.start(now, arm=standing is None or standing.source == NOBODY)
-        self._refused = RefusedSenders()
+        self._state = StatePublisher(node, self._drive, driver.tick_us, self._output, stop_file)
         self._drive.admission.latch.released = stop_file.released()
         if standing:
             self._take_over(standing, now)
@@ -79,11 +72,6 @@ class Actuator:
             self._drive.admission.stop(stop, self._since)
         self._watched = clock.now()
         self._step = self._drive.step(self._watched)
-        self._beats = node.publisher("beat", Beat)
-        self._statuses = node.publisher("drive_status", DriveStatus)
-        self._vehicles = node.publisher("vehicle", Vehicle)
-        self._whys = node.publisher("why", Why)
-        self._refusals = node.publisher("refusals", Refusals)
         self._answered = float("-inf")
         self._soon = node.alarm(self._answer)
 
@@ -97,8 +85,8 @@ class Actuator:
             self._node.departures(self._withdraw)
             self._node.watch(self._link.fileno(), self._hear_watchdog)
             self._node.every(STEP_EVERY)(self._tick)
-            self._node.every(TOPICS["beat"].every)(self._tell)
-            self._node.every(TOPICS["why"].every)(self._describe)
+            self._node.every(TOPICS["beat"].every)(lambda: self._state.tell(self._step))
+            self._node.every(TOPICS["why"].every)(lambda: self._state.describe(self._step))
             self._node.every(CHECK_EVERY)(lambda: self._output.check(clock.now()))
             self._node.every(KEEP_EVERY)(self._stop_file.tend)
             if health := self._health:
@@ -145,7 +133,7 @@ class Actuator:
         refusal = self._drive.receive(source, command, proof, now)
         sender, acted = (proof.sender, proof.acted) if proof else (None, now)
         if proof:
-            self._refused.note(proof.sender, source, refusal, now)
+            self._state.note(proof.sender, source, refusal, now)
         self._journal.command(source, sender, command, acted, refusal, now)
         if refusal:
             who = called(source, f"{proof.sender:x}") if proof else received.key
@@ -184,8 +172,10 @@ class Actuator:
         if self._step.state != before.state:
             self._node.log.info(f"{self._step.state}: {self._step.why}")
             self._journal.event("state", state=self._step.state, why=self._step.why)
-            self._tell()  # a beat as well: whoever begins now must prove that it was after this
-            self._describe()
+            self._state.tell(
+                self._step
+            )  # a beat as well: whoever begins now must prove that it was after this
+            self._state.describe(self._step)
 
     def _notice_pause(self, now: float) -> None:
         """Notice that this process itself stood still: what it has heard, and not read, is from before.
@@ -233,7 +223,7 @@ class Actuator:
         self._advance()
         self._output.confirm()
         self._stop_file.tend()
-        self._tell_status()  # whoever pressed waits for what the chip and the disk said
+        self._state.tell_status(self._step)  # whoever pressed waits for what the chip and the disk said
         self._journal.event("stop" if said.engaged else "release", by=said.by, why=said.why, id=said.id)
 
     def _tell_chip(self, words: str) -> None:
@@ -245,23 +235,3 @@ class Actuator:
         now = clock.now()
         self._drive.admission.withdraw(sender, now)
         self._step_soon(now)  # strangers may come and go by the thousand
-
-    def _tell(self) -> None:
-        self._beats.publish(self._drive.admission.beat(clock.now()))
-        self._tell_status()
-
-    def _tell_status(self) -> None:
-        self._statuses.publish(status(self._drive, self._step, self._output.evidence, self._stop_file.unkept))
-
-    def _describe(self) -> None:
-        self._vehicles.publish(
-            to_vehicle(self._settings, self._driver.tick_us, self._step.state != "starting")
-        )
-        self._whys.publish(Why(layers(self._drive, self._step, self._output.evidence, clock.now())))
-        self._tell_refused(clock.now())
-
-    def _tell_refused(self, now: float) -> None:
-        """Say who is refused, to those who would not hear it otherwise; nothing while all is well."""
-        refused = self._refused.news(now)
-        if refused is not None:
-            self._refusals.publish(refusals(self._drive, refused, now))

@@ -7,21 +7,11 @@ from zteleop.bus import clock
 from zteleop.bus.lane.call import Call
 from zteleop.bus.node import Node
 from zteleop.bus.topics import TOPICS
-from zteleop.control.deadlines import LINK_LOSS
-from zteleop.control.hold import HOLDS
 from zteleop.control.stick import Stick, neutral_pwm, to_pwm, to_twist
 from zteleop.errors import BusError, ConfigError
-from zteleop.inputs import Input
-from zteleop.messages import (
-    DriveStatus,
-    Header,
-    Log,
-    Odometry,
-    Pwm,
-    Twist,
-    TwistStamped,
-    Vehicle,
-)
+from zteleop.inputs import Input, Wish
+from zteleop.messages import DriveStatus, Header, Odometry, Pwm, Twist, TwistStamped, Vehicle
+from zteleop.nodes.sight import Sight
 from zteleop.nodes.stop_request import Stopping, person
 
 PERIOD = TOPICS["cmd_vel"].every
@@ -63,21 +53,12 @@ class Teleop:
         lane: Call | None = None,
     ) -> None:
         self._node, self._device, self._vehicle, self._show = node, device, vehicle, show
-        self._heard = node.heard()
+        self._sight = Sight(node)
         self._twists = node.publisher("cmd_vel", TwistStamped, source=source, wait=False)
         self._pwms = node.publisher("pwm", Pwm, source=source, wait=False)
-        self._statuses = node.subscription("drive_status", DriveStatus)
-        self._odoms = node.subscription("odom", Odometry)
-        self._logs = node.subscription("log", Log)
         self._lane = lane
         self._stopping = Stopping(node, person(), lane=lane)
-        self._status: DriveStatus | None = None
-        self._status_at = float("-inf")
-        self._at_rest = False
         self._looked = clock.now()
-        self._odom: Odometry | None = None
-        self._note = ""
-        self._epoch: int | None = None
         self._neutrals = 0
         self._stick = Stick()
         self._wanted: Twist | Pwm | None = None
@@ -104,7 +85,6 @@ class Teleop:
         """Take in what the operator did, say what the stick asks for, and soon show it."""
         now = clock.now()
         self._notice_robot(now)
-        self._notice_rest(now)
         if self._device.read(now):
             self._twists.act()
             self._pwms.act()
@@ -147,42 +127,26 @@ class Teleop:
         then, self._looked = self._looked, now
         if now - then > LATE:
             self._device.reset(now)
-            if self._device.stop_wish is False:
-                self._device.stop_wish = None
+            if self._device.wish is Wish.RELEASE:
+                self._device.wish = None
 
     def _notice_robot(self, now: float) -> None:
-        """Let go when the robot is another one than when the operator acted: restarted, or long unheard."""
-        beat, vehicle = self._heard.beat, self._heard.vehicle
-        gone = now - self._heard.at > LINK_LOSS
-        epoch = None if beat is None or gone else beat.epoch
-        if epoch != self._epoch:
-            self._epoch = epoch
+        """Take in what the robot says; after what ends a claim, the next act begins from neutral."""
+        if self._sight.look(now):
             self._device.reset(now)
-        if vehicle and vehicle != self._vehicle:
+        if (vehicle := self._sight.vehicle) and vehicle != self._vehicle:
             self._refit(vehicle, now)
-
-    def _notice_rest(self, now: float) -> None:
-        """Let go when the robot is kept at rest, and when that ends: the next act begins from neutral."""
-        status = self._statuses.newest()
-        if status:
-            self._status, self._status_at = status, now
-        elif now - self._status_at > LINK_LOSS:
-            self._status = None
-        self._stopping.heed(status, now)
+        self._stopping.heed(self._sight.news, now)
         for answer in self._lane.answers() if self._lane else ():
             self._stopping.hear_lane(answer, now)
-        at_rest = self._status is not None and self._status.state in HOLDS
-        if at_rest != self._at_rest:
-            self._at_rest = at_rest
-            self._device.reset(now)
 
     def _pass_on_wish(self, now: float) -> None:
-        wish, self._device.stop_wish = self._device.stop_wish, None
-        if wish:
+        wish, self._device.wish = self._device.wish, None
+        if wish is Wish.STOP:
             self._stopping.engage(now)
             self._device.reset(now)
-        elif wish is False:
-            self._stopping.release(self._status, now)
+        elif wish is Wish.RELEASE:
+            self._stopping.release(self._sight.status, now)
 
     def _refit(self, vehicle: Vehicle, now: float) -> None:
         """Learn another calibration; what this device cannot drive is said, and never driven."""
@@ -194,19 +158,17 @@ class Teleop:
             self._node.log.warn(f"{self._node.robot} cannot be driven like this: {error}")
 
     def _view(self, now: float) -> View:
-        self._odom = self._odoms.newest() or self._odom
         publisher = self._pwms if self._device.drive == "step" else self._twists
-        status = self._status
+        status = self._sight.status
         ours = status is not None and status.operator == publisher.sender
         note, alarm = self._news(now), self._stopping.unanswered
         if status and not alarm and publisher.refused.partition(" (")[0] not in status.why:
             note = publisher.refused
-        return View(now, self._vehicle, self._stick, self._wanted, status, ours, self._odom, note, alarm)
+        odom = self._sight.odom
+        return View(now, self._vehicle, self._stick, self._wanted, status, ours, odom, note, alarm)
 
     def _news(self, now: float) -> str:
         """Return what the robot answers to a stop or a release, for a while; else the latest of the log."""
-        log = self._logs.newest()
-        self._note = f"{log.name}: {log.msg}" if log else self._note
-        asking = self._stopping
+        log, asking = self._sight.log, self._stopping
         pending = asking.state == "pending" or asking.unanswered
-        return asking.words if pending or now - asking.ended < NEWS else self._note
+        return asking.words if pending or now - asking.ended < NEWS else log

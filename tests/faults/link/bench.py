@@ -22,7 +22,7 @@ TESTS = Path(__file__).parents[2]
 FALSE_ALARM = "stops the robot"
 """What the watchdog says when it believes that the robot moves without a reason."""
 CONFIG = """
-[drive.movement.cap]
+[drive.cap]
 stopping_distance = 1000.0
 
 [drive.servos.steering]

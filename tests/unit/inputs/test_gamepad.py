@@ -3,6 +3,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from zteleop.control.stick import Speeds, Stick, to_twist
+from zteleop.inputs import Wish
 from zteleop.inputs.gamepad import RELEASE_HELD, Gamepad
 from zteleop.inputs.gamepad_map import FORGET, GamepadSettings, Moved
 from zteleop.messages import Channel, Vehicle
@@ -67,8 +68,8 @@ class Bench:
     def stick(self) -> Stick:
         return self.gamepad.stick(self.now)
 
-    def wish(self) -> bool | None:
-        wish, self.gamepad.stop_wish = self.gamepad.stop_wish, None
+    def wish(self) -> Wish | None:
+        wish, self.gamepad.wish = self.gamepad.wish, None
         return wish
 
 
@@ -181,7 +182,7 @@ def test_a_reset_of_a_pad_at_rest_asks_for_nothing(bench):
 def test_b_stops_the_robot_and_lets_go(bench):
     bench.move({LB: 1.0, Y: -1.0})
     assert not bench.move({B: 1.0}, {B: 0.0})
-    assert bench.wish() is True
+    assert bench.wish() is Wish.STOP
     assert bench.stick == Stick()
     bench.read()
     assert bench.wish() is None
@@ -199,7 +200,7 @@ def test_start_ends_the_stop_when_it_is_held_alone(bench):
     bench.read(RELEASE_HELD - 0.1)
     assert bench.wish() is None
     bench.read(0.2)
-    assert bench.wish() is False
+    assert bench.wish() is Wish.RELEASE
     bench.read(2 * RELEASE_HELD)
     assert bench.wish() is None  # one press is one wish
 
@@ -225,9 +226,9 @@ def test_a_button_that_is_down_on_another_pad_does_not_go_on_with_a_release(benc
 
 def test_a_release_never_takes_back_a_stop(bench):
     bench.move({START: 1.0})
-    bench.gamepad.stop_wish = True
+    bench.gamepad.wish = Wish.STOP
     bench.read(2 * RELEASE_HELD)
-    assert bench.wish() is True
+    assert bench.wish() is Wish.STOP
 
 
 def test_another_mapping(tank):
@@ -237,7 +238,7 @@ def test_another_mapping(tank):
     bench.move({X: 1.0, Y: -1.0})
     assert bench.stick == Stick(1.0, -1.0, deadman=True)
     bench.move({"ABS_Z": -1.0})
-    assert bench.wish() is True
+    assert bench.wish() is Wish.STOP
 
 
 def test_a_pad_without_what_is_needed_never_drives_and_says_what(tank):

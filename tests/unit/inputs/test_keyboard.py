@@ -4,6 +4,7 @@ from hypothesis import strategies as st
 
 from zteleop.control.stick import Speeds, Stick, to_pwm
 from zteleop.errors import ConfigError
+from zteleop.inputs import Wish
 from zteleop.inputs.held_keys import FIRST, REPEATING
 from zteleop.inputs.keyboard import Keyboard
 from zteleop.messages import Channel, Vehicle
@@ -54,9 +55,9 @@ class Bench:
             self.keyboard.fit(vehicle)
         self.now = 100.0
 
-    def wish(self) -> bool | None:
+    def wish(self) -> Wish | None:
         """Take the wish, as whoever passes it on does."""
-        wish, self.keyboard.stop_wish = self.keyboard.stop_wish, None
+        wish, self.keyboard.wish = self.keyboard.wish, None
         return wish
 
     def type(self, data: bytes, after: float = 0.0) -> bool:
@@ -123,7 +124,7 @@ def test_backspace_is_neutral_and_a_wish_to_stop(car, drive, key):
     assert bench.wish() is None
     assert bench.type(key)
     assert bench.stick() == Stick()
-    assert bench.wish() is True
+    assert bench.wish() is Wish.STOP
 
 
 @pytest.mark.parametrize("drive", ["step", "hold"])
@@ -142,16 +143,16 @@ def test_a_key_held_through_a_stop_must_be_let_go_first(car, drive):
 @pytest.mark.parametrize("keys", [DELETE + UP + UP, DELETE + b"r", b"r" + DELETE, DELETE + b"r" + UP])
 def test_what_is_typed_around_a_stop_neither_drives_nor_releases(step, keys):
     step.type(keys)
-    assert step.wish() is True
+    assert step.wish() is Wish.STOP
     assert step.stick() == Stick()
 
 
 @pytest.mark.parametrize("key", [b"q", b"\x1a"])
 def test_a_stop_is_heard_whatever_else_is_asked_in_the_same_breath(step, key):
     step.type(key + DELETE)
-    assert step.wish() is True
+    assert step.wish() is Wish.STOP
     step.type(DELETE + b"q", after=1.0)
-    assert step.wish() is True
+    assert step.wish() is Wish.STOP
 
 
 def test_one_can_leave_in_the_same_breath_as_a_stop(step):
@@ -164,34 +165,34 @@ def test_r_is_a_wish_to_release_and_moves_nothing(step, key):
     step.type(UP)
     before = step.ticks()
     step.type(key)
-    assert step.wish() is False
+    assert step.wish() is Wish.RELEASE
     assert step.ticks() == before
 
 
 def test_a_stop_key_that_repeats_is_one_wish_and_pressed_again_another(step):
     step.type(DELETE + DELETE)
-    assert step.wish() is True
+    assert step.wish() is Wish.STOP
     for _ in range(10):
         step.type(DELETE, after=REPEATING - 0.01)
         assert step.wish() is None
     step.type(DELETE, after=REPEATING + 0.01)
-    assert step.wish() is True
+    assert step.wish() is Wish.STOP
 
 
 def test_a_release_key_held_down_is_one_wish(step):
     step.type(b"r")
-    assert step.wish() is False
+    assert step.wish() is Wish.RELEASE
     step.type(b"r", after=FIRST - 0.01)
     assert step.wish() is None
     step.type(b"r", after=FIRST + 0.01)
-    assert step.wish() is False
+    assert step.wish() is Wish.RELEASE
 
 
 def test_a_stop_at_once_after_a_release_counts(step):
     step.type(b"r")
     step.wish()
     step.type(DELETE, after=0.01)
-    assert step.wish() is True
+    assert step.wish() is Wish.STOP
 
 
 @pytest.mark.parametrize("key", [b"q", b"\x03"])

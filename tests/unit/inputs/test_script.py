@@ -43,7 +43,7 @@ def test_it_acts_at_every_read_until_it_is_done():
 def test_it_wishes_for_no_stop():
     script = Script(10.0)
     script.read(0.0)
-    assert script.stop_wish is None
+    assert script.wish is None
 
 
 def test_a_reset_is_neutral_and_begins_anew():

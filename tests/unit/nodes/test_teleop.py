@@ -9,6 +9,7 @@ from zteleop.control.servo import Servo
 from zteleop.control.settings import DriveSettings
 from zteleop.control.stick import Speeds, Stick
 from zteleop.errors import BusError, ConfigError
+from zteleop.inputs import Wish
 from zteleop.messages import DriveStatus, Log, Odometry, Pwm, Stop, Twist, Vehicle
 from zteleop.nodes.stop_request import ACKNOWLEDGED_WITHIN, REPEAT
 from zteleop.nodes.teleop import NEWS, PERIOD, SHOW_AFTER, Teleop, View
@@ -28,7 +29,7 @@ class Device:
         self.drive, self.speeds, self.finished = drive, Speeds(), False
         self.position, self.acted = Stick(), False
         self.rested = False
-        self.stop_wish: bool | None = None
+        self.wish: Wish | None = None
         self.fitted: list[Vehicle] = []
         self.resets: list[float] = []
         self.file: int | None = None
@@ -304,12 +305,12 @@ def test_the_robot_is_ours_when_it_says_so(desk: Desk, operator: str, ours: bool
 def test_a_stop_is_passed_on_once_repeated_and_lets_go(desk: Desk, clock: Clock) -> None:
     desk.tick(3)
     desk.device.resets.clear()
-    desk.device.stop_wish = True
+    desk.device.wish = Wish.STOP
     desk.tick()
     stop = desk.stops.messages[0]
     assert (stop.engaged, stop.why) == (True, "")
     assert "@" in stop.by
-    assert desk.device.stop_wish is None
+    assert desk.device.wish is None
     assert desk.device.resets == [clock.time]
     desk.tick(9)
     assert desk.stops.take() == [stop] * 10
@@ -325,14 +326,14 @@ def test_a_stop_says_neutral_with_it(desk: Desk) -> None:
     desk.tick(3)
     desk.twists.take()
     desk.device.reset = lambda now: setattr(desk.device, "position", Stick())
-    desk.device.stop_wish = True
+    desk.device.wish = Wish.STOP
     desk.tick(1)
     assert len(desk.stops.take()) == 1
     assert [said.twist for said in desk.twists.take()] == [Twist.planar()]
 
 
 def test_the_answer_to_a_stop_is_the_note_for_a_while(desk: Desk) -> None:
-    desk.device.stop_wish = True
+    desk.device.wish = Wish.STOP
     desk.tick()
     assert desk.views[-1].note == "asking archangel to stop"
     desk.hear_state("stopped", desk.stops.messages[0].id)
@@ -346,13 +347,13 @@ def test_the_answer_to_a_stop_is_the_note_for_a_while(desk: Desk) -> None:
 
 
 def test_a_stop_that_nobody_acknowledges_stays_an_alarm_until_somebody_does(desk: Desk) -> None:
-    desk.device.stop_wish = True
+    desk.device.wish = Wish.STOP
     desk.tick(round((ACKNOWLEDGED_WITHIN + NEWS + 1) / PERIOD), beats=False)
     desk.hear_log("anything")
     desk.tick(beats=False)
     assert desk.views[-1].alarm
     assert desk.views[-1].note.startswith("archangel has not acknowledged the stop within 2 s: cut its power")
-    desk.device.stop_wish = True
+    desk.device.wish = Wish.STOP
     desk.tick()
     assert not desk.views[-1].alarm
     desk.hear_state("stopped", desk.stops.messages[-1].id)
@@ -363,7 +364,7 @@ def test_a_stop_that_nobody_acknowledges_stays_an_alarm_until_somebody_does(desk
 def test_a_release_names_the_stop_on_the_screen(desk: Desk) -> None:
     desk.hear_state("stopped", 7)
     desk.tick()
-    desk.device.stop_wish = False
+    desk.device.wish = Wish.RELEASE
     desk.tick(3)
     assert {(said.engaged, said.id) for said in desk.stops.take()} == {(False, 7)}
     assert desk.views[-1].note == "asking archangel to end its stop"
@@ -376,7 +377,7 @@ def test_a_release_names_the_stop_on_the_screen(desk: Desk) -> None:
 def test_a_robot_that_is_not_heard_is_not_released(desk: Desk) -> None:
     desk.hear_state("stopped", 7)
     desk.tick(round(LINK_LOSS / PERIOD) + 2, beats=False)
-    desk.device.stop_wish = False
+    desk.device.wish = Wish.RELEASE
     desk.tick(beats=False)
     assert desk.stops.messages == []
     assert desk.views[-1].note.startswith("archangel is not heard")
@@ -404,7 +405,7 @@ def test_a_robot_kept_at_rest_finds_the_device_at_rest_and_again_when_it_is_free
 
 
 def test_whoever_stops_and_leaves_is_heard_first(desk: Desk) -> None:
-    desk.device.stop_wish, desk.device.finished = True, True
+    desk.device.wish, desk.device.finished = Wish.STOP, True
     desk.tick(5)
     assert not desk.node.stopped
     desk.hear_state("stopped", desk.stops.messages[0].id)
@@ -415,7 +416,7 @@ def test_whoever_stops_and_leaves_is_heard_first(desk: Desk) -> None:
 
 
 def test_whoever_leaves_after_a_stop_that_nobody_acknowledged_is_told(desk: Desk) -> None:
-    desk.device.stop_wish, desk.device.finished = True, True
+    desk.device.wish, desk.device.finished = Wish.STOP, True
     desk.node.spin = lambda: desk.tick(round(REPEAT / PERIOD) + 2, beats=False)
     with pytest.raises(BusError, match="archangel has not acknowledged the stop"):
         desk.teleop.run()
@@ -425,7 +426,7 @@ def test_whoever_leaves_after_a_stop_that_nobody_acknowledged_is_told(desk: Desk
 def test_what_was_heard_before_a_stop_does_not_answer_it(desk: Desk) -> None:
     desk.hear_state("stopped", 7)
     desk.tick()
-    desk.device.stop_wish = True
+    desk.device.wish = Wish.STOP
     desk.tick(round(ACKNOWLEDGED_WITHIN / PERIOD) + 2, beats=False)
     assert desk.views[-1].alarm
 
@@ -446,12 +447,12 @@ def test_a_stop_typed_while_the_process_stood_still_counts_and_a_release_does_no
 ) -> None:
     desk.hear_state("stopped", 7)
     desk.tick()
-    for wish, said in ((False, []), (True, [True])):
+    for wish, said in ((Wish.RELEASE, []), (Wish.STOP, [True])):
         clock.pass_by(0.6)
-        desk.device.stop_wish = wish
+        desk.device.wish = wish
         desk.tick()
         assert [stop.engaged for stop in desk.stops.take()] == said
-        assert desk.device.stop_wish is None
+        assert desk.device.wish is None
 
 
 def test_its_own_refusal_is_shown_unless_the_robots_sentence_says_it(desk: Desk) -> None:

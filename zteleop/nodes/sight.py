@@ -1,0 +1,61 @@
+"""What an operator's process sees of the robot it drives."""
+
+from zteleop.bus.node import Node
+from zteleop.control.deadlines import LINK_LOSS
+from zteleop.control.hold import HOLDS
+from zteleop.messages import DriveStatus, Log, Odometry, Vehicle
+
+
+class Sight:
+    """One robot: whether it is heard, is the same, rests, and what it says of itself."""
+
+    def __init__(self, node: Node) -> None:
+        self._heard = node.heard()
+        self._statuses = node.subscription("drive_status", DriveStatus)
+        self._odoms = node.subscription("odom", Odometry)
+        self._logs = node.subscription("log", Log)
+        self.news: DriveStatus | None = None
+        """The status that came since the look before."""
+        self.status: DriveStatus | None = None
+        """None when no actuator is heard"""
+        self._status_at = float("-inf")
+        self._epoch: int | None = None
+        self._at_rest = False
+        self._odom: Odometry | None = None
+        self._log = ""
+
+    def look(self, now: float) -> bool:
+        """Take in what came; True where whoever acts must begin anew.
+
+        That is so when the robot is another one than before (restarted, or long unheard), when it is
+        kept at rest, and when that ends.
+        """
+        self.news = self._statuses.newest()
+        if self.news:
+            self.status, self._status_at = self.news, now
+        elif now - self._status_at > LINK_LOSS:
+            self.status = None
+        beat = self._heard.beat
+        gone = beat is None or now - self._heard.at > LINK_LOSS
+        before = self._epoch, self._at_rest
+        self._epoch = None if beat is None or gone else beat.epoch
+        self._at_rest = self.status is not None and self.status.state in HOLDS
+        return before != (self._epoch, self._at_rest)
+
+    @property
+    def vehicle(self) -> Vehicle | None:
+        """What it last said it is."""
+        return self._heard.vehicle
+
+    @property
+    def odom(self) -> Odometry | None:
+        """Where it last said it is."""
+        self._odom = self._odoms.newest() or self._odom
+        return self._odom
+
+    @property
+    def log(self) -> str:
+        """The latest line of its log, and of everybody's."""
+        if newest := self._logs.newest():
+            self._log = f"{newest.name}: {newest.msg}"
+        return self._log

@@ -1,0 +1,50 @@
+"""What an actuator says of itself: its beat, what it does and why, and whom it does not obey."""
+
+from zteleop.bus import clock
+from zteleop.bus.node import Node
+from zteleop.control.drive import Drive, Step
+from zteleop.control.explain import layers
+from zteleop.control.gate import Refusal
+from zteleop.control.refusals import RefusedSenders
+from zteleop.control.report import refusals, status, to_vehicle
+from zteleop.machine.stop_file import StopFile
+from zteleop.messages import Beat, DriveStatus, Refusals, Vehicle, Why
+from zteleop.nodes.output import Output
+
+
+class StatePublisher:
+    """Says on the bus what is known in this process."""
+
+    def __init__(self, node: Node, drive: Drive, tick_us: float, output: Output, stop_file: StopFile) -> None:
+        self._drive = drive
+        self._tick_us = tick_us
+        self._output = output
+        self._stop_file = stop_file
+        self._refused = RefusedSenders()
+        self._beats = node.publisher("beat", Beat)
+        self._statuses = node.publisher("drive_status", DriveStatus)
+        self._vehicles = node.publisher("vehicle", Vehicle)
+        self._whys = node.publisher("why", Why)
+        self._refusals = node.publisher("refusals", Refusals)
+
+    def note(self, sender: int, source: str, refusal: Refusal | None, now: float) -> None:
+        """Remember how a command was judged, for those who must be told."""
+        self._refused.note(sender, source, refusal, now)
+
+    def tell(self, step: Step) -> None:
+        """Say what commands must echo from now on, and what the robot does."""
+        self._beats.publish(self._drive.admission.beat(clock.now()))
+        self.tell_status(step)
+
+    def tell_status(self, step: Step) -> None:
+        """Say what the robot does."""
+        self._statuses.publish(status(self._drive, step, self._output.evidence, self._stop_file.unkept))
+
+    def describe(self, step: Step) -> None:
+        """Say what the robot is, why it does what it does, and who is refused."""
+        self._vehicles.publish(to_vehicle(self._drive.settings, self._tick_us, step.state != "starting"))
+        now = clock.now()
+        self._whys.publish(Why(layers(self._drive, step, self._output.evidence, now)))
+        refused = self._refused.news(now)
+        if refused is not None:  # nothing while all is well
+            self._refusals.publish(refusals(self._drive, refused, now))
