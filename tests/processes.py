@@ -43,13 +43,19 @@ def until(condition: Callable[[], object], what: str) -> None:
         time.sleep(0.0005)
 
 
+WORDS = 1500
 _started: list["Process"] = []
 """Processes whose words a failed test shows."""
 
 
 def words() -> list[tuple[str, str]]:
     """Return the command and the last words of every process that was started and not forgotten."""
-    return [(" ".join(process.command[-9:])[-100:], process.text[-3000:]) for process in _started]
+    return [(" ".join(process.command[-9:])[-100:], _shortened(process.text)) for process in _started]
+
+
+def _shortened(text: str) -> str:
+    """Return the first and the last of many words: what went wrong is often followed by what it led to."""
+    return text if len(text) <= 2 * WORDS else f"{text[:WORDS]}\n[...]\n{text[-WORDS:]}"
 
 
 def pids() -> list[int]:
