@@ -167,14 +167,14 @@ class Admission:
     def _hear(self, source: str, command: Twist | Pwm, proof: Proof | None, now: float) -> Verdict:
         if isinstance(command, Pwm) and not self._settings.mixer.takes_ticks:
             return Verdict(Refusal.NO_SUCH_CHANNEL)
-        moving, beat = self._moves(command), self.beat(now)
+        moving = self._moves(command)
         unproven = proof is None and self.foreign.trusted(source)
         if unproven and moving and now - self.interruption.ended <= self._settings.deadlines.max_age:
             # Nobody can prove that it was not said before the interruption ended, and queued meanwhile.
-            self.foreign.hold_on(source, beat, now)
+            self.foreign.hold_on(source, self.beat(now), now)
             return Verdict(Refusal.INTERRUPTED)
         if unproven:
-            proof = self.foreign.vouch(source, moving, beat, now)
+            proof = self.foreign.vouch(source, moving, self.beat(now), now)
         refusal = self._judge(source, command, proof, moving, now)
         if proof and moving:
             return Verdict(refusal, proof.sender, now - (NEVER if unproven else proof.beat))
