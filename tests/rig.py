@@ -20,7 +20,7 @@ from processes import PATIENCE, ZTELEOP, Process, Terminal, Unmet, until, users_
 from zteleop.bus.node import Node
 from zteleop.bus.settings import BusSettings
 from zteleop.bus.subscription import Subscription
-from zteleop.bus.zenoh_session import open_zenoh
+from zteleop.bus.zenoh_open import open_zenoh
 from zteleop.drivers.registers import read_duty_ticks
 from zteleop.drivers.simulated import open_registers
 from zteleop.machine import realtime

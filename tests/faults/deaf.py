@@ -6,7 +6,7 @@ import zenoh
 from processes import PATIENCE
 
 from zteleop.bus.settings import BusSettings
-from zteleop.bus.zenoh_session import open_zenoh
+from zteleop.bus.zenoh_open import open_zenoh
 
 
 def is_deaf(port: int) -> bool:

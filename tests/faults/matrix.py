@@ -120,12 +120,12 @@ class Stage:
 
     def _drive(self, acts: int) -> None:
         bench = self.bench
-        command = [sys.executable, "-c", OPERATE, endpoint(bench.door), bench.robot, str(acts)]
+        command = [sys.executable, "-c", OPERATE, endpoint(bench.door), bench.place.robot, str(acts)]
         bench.operator = bench.run("operator", command)
         self._until(lambda: not bench.eye.at_rest, "it drives")
 
     def strike(self) -> None:
-        self.bench.order.write_text("hang" if "end" in self.trial.failure else "raise MainThread")
+        self.bench.place.order.write_text("hang" if "end" in self.trial.failure else "raise MainThread")
         with ExitStack() as stack:
             if self.trial.state in ("fault", "writing"):
                 faults = stack.enter_context(self.bench.faults())

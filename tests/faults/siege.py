@@ -75,7 +75,7 @@ class Siege:
         self._under_way: dict[str, Process] = {}
         self._door = bench.door
         self._where = [
-            *("--robot", bench.robot, "--mode", "client", "--no-multicast-scouting"),
+            *("--robot", bench.place.robot, "--mode", "client", "--no-multicast-scouting"),
             *("--connect", endpoint),
         ]
 

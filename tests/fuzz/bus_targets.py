@@ -12,7 +12,7 @@ from zteleop.bus.escape import printable
 from zteleop.bus.names import chunk, resolve, robot_name
 from zteleop.bus.session import Sample
 from zteleop.bus.settings import BusSettings
-from zteleop.bus.zenoh_session import _check_threads, _configure
+from zteleop.bus.zenoh_open import _check_threads, _configure
 from zteleop.cli.echo import render as echo
 from zteleop.control.deadlines import Deadlines
 from zteleop.control.gate import Gate

@@ -11,7 +11,7 @@ import pytest
 from rig import free_port, until
 
 from zteleop.bus.settings import BusSettings
-from zteleop.bus.zenoh_session import open_zenoh
+from zteleop.bus.zenoh_open import open_zenoh
 
 
 def lingering(port: int) -> Iterator[bool]:

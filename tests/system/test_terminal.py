@@ -45,6 +45,7 @@ import select, signal, sys, time
 from zteleop.control.stick import Speeds
 from zteleop.inputs.keyboard import Keyboard
 from zteleop.screen.render import Dashboard, render
+from zteleop.screen.view import View
 from zteleop.messages import Channel, Vehicle
 
 
@@ -66,7 +67,7 @@ with Keyboard("step") as keyboard:
         stick = keyboard.stick(now)
         note = f"forward {stick.forward:.3f} resumed {keyboard.terminal.resumed}"
         lines = render(
-            Dashboard("archangel", "step", Speeds(), car, note=note),
+            Dashboard("archangel", "step", Speeds(), View(vehicle=car, note=note)),
             *keyboard.terminal.size(), unicode=keyboard.terminal.unicode, color=keyboard.terminal.color,
         )
         keyboard.terminal.draw(lines)

@@ -4,6 +4,7 @@ import ast
 import re
 import tomllib
 from pathlib import Path
+from statistics import median, quantiles
 
 import pytest
 from importlinter.cli import EXIT_STATUS_SUCCESS, lint_imports
@@ -13,6 +14,7 @@ from zteleop.processes import PROGRAMS
 
 ROOT = Path(__file__).parents[2]
 SOURCES = sorted((ROOT / "zteleop").rglob("*.py"))
+TREES = {path: ast.parse(path.read_text()) for path in SOURCES}
 
 
 def test_imports_keep_every_contract(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -21,9 +23,11 @@ def test_imports_keep_every_contract(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_no_file_is_long_or_named_after_nothing() -> None:
-    long = [str(path) for path in SOURCES if len(path.read_text().splitlines()) > 400]
+    lengths = {path: len(path.read_text().splitlines()) for path in SOURCES}
     nothing = {"utils", "util", "helpers", "common", "manager", "base", "misc"}
-    assert (long, [str(path) for path in SOURCES if path.stem in nothing]) == ([], [])
+    assert [str(path) for path, lines in lengths.items() if lines > 300] == []
+    assert median(lengths.values()) <= 90
+    assert [str(path) for path in SOURCES if path.stem in nothing] == []
 
 
 def test_every_room_says_in_its_first_line_what_is_in_it() -> None:
@@ -68,13 +72,62 @@ def test_what_a_page_points_to_is_there(page: str) -> None:
 
 
 def test_functions_are_short() -> None:
-    lengths = sorted(
+    lengths = [
         node.end_lineno - node.lineno + 1
-        for path in SOURCES
-        for node in ast.walk(ast.parse(path.read_text()))
+        for path, tree in TREES.items()
+        for node in ast.walk(tree)
         if isinstance(node, ast.FunctionDef) and node.end_lineno
+    ]
+    assert median(lengths) <= 6
+    assert quantiles(lengths, n=10)[-1] <= 14
+
+
+def test_no_class_holds_more_than_fits_into_a_head() -> None:
+    """What ROS says in one message, and what a status tells, is as long as it is."""
+    own = [tree for path, tree in TREES.items() if path.parent.name != "messages"]
+    classes = [node for tree in own for node in ast.walk(tree) if isinstance(node, ast.ClassDef)]
+    assert {node.name: len(fields(node)) for node in classes if len(fields(node)) > 14} == {}
+
+
+def test_constructors_name_one_attribute_a_line() -> None:
+    """But for pairs that come from one call."""
+    crowded = [
+        f"{path.relative_to(ROOT)}:{assign.lineno}"
+        for path, tree in TREES.items()
+        for function in ast.walk(tree)
+        if isinstance(function, ast.FunctionDef) and function.name == "__init__"
+        for assign in ast.walk(function)
+        if isinstance(assign, ast.Assign) and len(attributes(assign)) > 1 and not is_one_call(assign)
+    ]
+    assert crowded == []
+
+
+def fields(node: ast.ClassDef) -> set[str]:
+    """Return what instances hold: annotated in the class, or set by its methods."""
+    declared = {
+        n.target.id for n in node.body if isinstance(n, ast.AnnAssign) and isinstance(n.target, ast.Name)
+    }
+    set_ = (
+        name for n in ast.walk(node) if isinstance(n, ast.Assign | ast.AnnAssign) for name in attributes(n)
     )
-    assert lengths[len(lengths) // 2] <= 8
+    return declared | set(set_)
+
+
+def attributes(assign: ast.Assign | ast.AnnAssign) -> list[str]:
+    """Return the attributes of self that a statement sets."""
+    targets = assign.targets if isinstance(assign, ast.Assign) else [assign.target]
+    flat = [
+        part for target in targets for part in (target.elts if isinstance(target, ast.Tuple) else [target])
+    ]
+    return [
+        part.attr
+        for part in flat
+        if isinstance(part, ast.Attribute) and isinstance(part.value, ast.Name) and part.value.id == "self"
+    ]
+
+
+def is_one_call(assign: ast.Assign) -> bool:
+    return isinstance(assign.value, ast.Call)
 
 
 def test_every_public_name_can_be_imported() -> None:

@@ -30,11 +30,16 @@ class Answer:
     """Follows what the robot says to one sender, and says to its log what changed."""
 
     def __init__(self, sender: str, topic: str, robot: str, heard: Heard, log: NodeLog) -> None:
-        self._sender, self._topic, self._robot = sender, topic, robot
-        self._heard, self._log = heard, log
-        self._since, self._unheard = clock.now(), False
+        self._sender = sender
+        self._topic = topic
+        self._robot = robot
+        self._heard = heard
+        self._log = log
+        self._since = clock.now()
+        self._unheard = False
         self._told: Refusals | None = heard.refusals
-        self._words, self._at = "", NEVER
+        self._words = ""
+        self._at = NEVER
 
     @property
     def refused(self) -> str:

@@ -18,7 +18,9 @@ class Heard:
     def __init__(
         self, beats: Subscription[Beat], vehicles: Subscription[Vehicle], refusals: Subscription[Refusals]
     ) -> None:
-        self._beats, self._vehicles, self._refusals = beats, vehicles, refusals
+        self._beats = beats
+        self._vehicles = vehicles
+        self._refusals = refusals
         self._waited = False
         self.beat: Beat | None = None
         self.vehicle: Vehicle | None = None

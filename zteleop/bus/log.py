@@ -17,7 +17,9 @@ class NodeLog:
     """Bounds how often a node complains; what is held back is counted."""
 
     def __init__(self, name: str, publish: Callable[[Log], None], show: Callable[[str], None]) -> None:
-        self._name, self._publish, self.show = name, publish, show
+        self._name = name
+        self._publish = publish
+        self.show = show
         self._said: dict[str, float] = {}
         self._held_back = 0
 

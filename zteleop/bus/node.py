@@ -38,7 +38,8 @@ class Node:
         *,
         session: Session | None = None,
     ) -> None:
-        self.name, self.robot = chunk(name, "a node's name"), robot_name(robot) if robot else None
+        self.name = chunk(name, "a node's name")
+        self.robot = robot_name(robot) if robot else None
         self.session = session or open_session(bus or BusSettings())
         try:
             self._set_up()

@@ -31,7 +31,10 @@ class Publisher(Generic[M]):
         listen: Callable[[], object] = lambda: None,
         answer: Answer | None = None,
     ) -> None:
-        self._outlet, self._prover, self._heard, self._listen = outlet, prover, heard, listen
+        self._outlet = outlet
+        self._prover = prover
+        self._heard = heard
+        self._listen = listen
         self._answer = answer
         self._said: type[Message] = types[0]
         self._encodings: dict[type[Message], str] = {kind: codec.encoding_of(kind) for kind in types}

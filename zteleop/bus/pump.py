@@ -22,7 +22,9 @@ class Pump:
         handler: Callable[[Any], object],
         loop: Loop,
     ) -> None:
-        self._inbox, self._handler, self._loop = inbox, handler, loop
+        self._inbox = inbox
+        self._handler = handler
+        self._loop = loop
         self._sample: Sample | None = None
         self._emptied = threading.Lock()  # held while the loop is at work; an Event costs three times as much
         self._emptied.acquire()

@@ -101,6 +101,7 @@ def open_session(
         from zteleop.bus.door.remote import Remote  # and nothing of zenoh
 
         return Remote(settings.connect[0].removeprefix(BEHIND))
-    from zteleop.bus.zenoh_session import ZenohSession, open_zenoh  # not what reads settings needs it
+    from zteleop.bus.zenoh_open import open_zenoh  # not what reads settings needs it
+    from zteleop.bus.zenoh_session import ZenohSession
 
     return ZenohSession(open_zenoh(settings, settle=settle, door=door, patient=patient))

@@ -39,7 +39,9 @@ class Subscription(Generic[M]):
         complain: Callable[[str], None],
         handling: Callable[[], AbstractContextManager[object]] = nullcontext,
     ) -> None:
-        self.ring, self._accepted, self._complain = ring, accepted, complain
+        self.ring = ring
+        self._accepted = accepted
+        self._complain = complain
         self._handling = handling
         self.dropped = 0
 

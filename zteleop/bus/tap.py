@@ -39,7 +39,8 @@ class Tap:
     """
 
     def __init__(self, session: Session, robot: str, known: Iterable[str]) -> None:
-        self._session, self._prefix = session, f"robot/{robot}/"
+        self._session = session
+        self._prefix = f"robot/{robot}/"
         self._inboxes: dict[str, Ring] = {}
         self._known = tuple(known)
         self._paused: dict[str, float] = {}

@@ -1,9 +1,6 @@
 """A robot to do things to: its processes, an eye on its chip, and a place for whoever drives it."""
 
 import os
-import secrets
-import shutil
-import tempfile
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, ExitStack, contextmanager
@@ -14,6 +11,7 @@ from zteleop.bus.node import Node
 from zteleop.bus.settings import BusSettings
 from zteleop.chaos.cable import Cable
 from zteleop.chaos.eye import Eye, open_eye
+from zteleop.chaos.place import Place
 from zteleop.chaos.process import ZTELEOP, Process, actuator_of, door_of
 from zteleop.chaos.terminal import Terminal
 from zteleop.config import Config
@@ -26,7 +24,6 @@ START = 10.0
 READY = 20.0
 """s; an ESC may take ten of them to arm"""
 LOOK = 0.0005
-SABOTAGE = Path(__file__).with_name("sabotage")
 
 
 class Subject(NamedTuple):
@@ -44,14 +41,8 @@ class Bench:
     """One start of a robot; whatever was started ends with it."""
 
     def __init__(self, subject: Subject) -> None:
-        self.subject, self.settings = subject, subject.settings
-        self.robot = f"chaos-{secrets.token_hex(2)}"
-        self.folder = Path(tempfile.mkdtemp(prefix="zt-"))
-        self.address = self.folder / "door"
-        own = f"{self.folder}/zteleop/{self.robot}.pca9685" if self.settings.driver == "simulated" else ""
-        self.chip = subject.chip or own
-        self.order = self.folder / "order"
-        self.environment = os.environ | self._surroundings() | subject.environment
+        self.subject = subject
+        self.place = Place(self.settings.driver == "simulated", subject.chip)
         limits, mixer = self.settings.drive.limits, self.settings.drive.mixer
         self.command = Twist.planar(limits.speed_of(mixer) / 4, limits.turn_of(mixer) / 8)
         self.operator: Process | None = None
@@ -74,22 +65,23 @@ class Bench:
 
     def __exit__(self, *_: object) -> None:
         self._stack.close()
-        shutil.rmtree(self.folder, ignore_errors=True)  # a black box may still be writing
+        self.place.leave()
 
-    def _surroundings(self) -> dict[str, str]:
-        path = filter(None, (str(SABOTAGE), os.environ.get("PYTHONPATH")))
-        return {
-            "XDG_STATE_HOME": f"{self.folder}/state",
-            "XDG_RUNTIME_DIR": str(self.folder),
-            "TMPDIR": str(self.folder),  # who is killed leaves its folder
-            "PYTHONPATH": os.pathsep.join(path),
-            "ZTELEOP_CHAOS_ORDER": str(self.order),
-        }
+    @property
+    def settings(self) -> Config:
+        """The robot's own."""
+        return self.subject.settings
 
     def _start(self) -> None:
-        self.eye: Eye = open_eye(self.settings, self.robot, self.chip)
+        self.eye: Eye = open_eye(self.settings, self.place.robot, self.place.chip)
         self._stack.callback(self.eye.close)
-        where = ("--robot", self.robot, "--no-multicast-scouting", "--listen", endpoint(self.address))
+        where = (
+            "--robot",
+            self.place.robot,
+            "--no-multicast-scouting",
+            "--listen",
+            endpoint(self.place.address),
+        )
         command = [*ZTELEOP, "actuator", "--with-parent", *where, *self.subject.options]
         self.watchdog = self.run("actuator", command, leashed=True)
         self.await_robot()
@@ -100,7 +92,7 @@ class Bench:
     def await_robot(self) -> None:
         """Wait until it can be joined; raises BusError with its last words when it ends."""
         give_up = time.monotonic() + START
-        while not self.address.exists():
+        while not self.place.address.exists():
             if self.watchdog.ended or time.monotonic() > give_up:
                 raise BusError(f"the robot did not start: {self.watchdog.words}")
             time.sleep(LOOK)
@@ -118,21 +110,28 @@ class Bench:
     ) -> Process:
         """Start a process that ends with the bench."""
         bench = {} if leashed else {"ZTELEOP_CHAOS_BENCH": str(os.getpid())}
-        process = Process(name, command, self.environment | bench, self.folder, terminal, leashed=leashed)
+        process = Process(
+            name,
+            command,
+            self.place.environment | self.subject.environment | bench,
+            self.place.folder,
+            terminal,
+            leashed=leashed,
+        )
         self._stack.callback(process.end)
         return process
 
     def join(self, place: Path | None = None) -> Node:
         """Join the robot's bus from here, by its own door or by a cable's."""
-        bus = BusSettings(mode="client", connect=[endpoint(place or self.address)], multicast=False)
-        node = Node("chaos", self.robot, bus)
+        bus = BusSettings(mode="client", connect=[endpoint(place or self.place.address)], multicast=False)
+        node = Node("chaos", self.place.robot, bus)
         node.log.show = lambda line: None
         self._stack.callback(node.close)
         return node
 
     def lay_cable(self, place: Path) -> None:
         """Lead to the robot's door from another place, by a link that can be cut."""
-        self.link = self._stack.enter_context(Cable(self.address, place))
+        self.link = self._stack.enter_context(Cable(self.place.address, place))
 
     @property
     def actuator(self) -> int:
@@ -159,7 +158,7 @@ class Bench:
     @contextmanager
     def faults(self) -> Iterator[Faults]:
         """Open a simulated chip for faults to be put in; what no transfer has met stays."""
-        faults = Faults(self.chip)
+        faults = Faults(self.place.chip)
         try:
             yield faults
         finally:

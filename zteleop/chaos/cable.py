@@ -20,7 +20,9 @@ class Way:
     """One direction of one connection: what is on its way, and when it arrives."""
 
     def __init__(self, source: socket.socket, sink: socket.socket, *, forth: bool) -> None:
-        self.source, self.sink, self.forth = source, sink, forth
+        self.source = source
+        self.sink = sink
+        self.forth = forth
         self.ended = False
         self._flying: deque[tuple[float, bytes]] = deque()
         self._weight = 0
@@ -60,7 +62,8 @@ class Cable:
         """s, each way"""
         self.rate: float | None = None
         """bytes a second, each way"""
-        self._target, self._listener = target, _listen(place)
+        self._target = target
+        self._listener = _listen(place)
         self.port = 0 if isinstance(place, Path) else int(self._listener.getsockname()[1])
         self._ways: list[Way] = []
         self._cut: set[bool] = set()

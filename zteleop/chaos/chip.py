@@ -56,7 +56,7 @@ def write_beside(bench: Bench) -> float:
     press(bench)
     bench.until(lambda: bench.eye.at_rest, 1.0)
     settings = bench.settings
-    values = settings.driver_settings(settings.driver, bench.robot) | {"path": bench.chip}
+    values = settings.driver_settings(settings.driver, bench.place.robot) | {"path": bench.place.chip}
     stranger = open_driver(settings.driver, values, exclusive=False)
     stranger.write({servo.channel: servo.max_us for servo in settings.drive.servos.values()})
     written = time.monotonic()
@@ -65,7 +65,7 @@ def write_beside(bench: Bench) -> float:
 
 
 def remove_file(bench: Bench) -> None:
-    os.unlink(bench.chip)
+    os.unlink(bench.place.chip)
 
 
 SOON = 0.2

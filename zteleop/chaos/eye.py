@@ -19,7 +19,9 @@ class Eye:
     def __init__(
         self, read: Callable[[], Pulses], calibration: Calibration, close: Callable[[], object]
     ) -> None:
-        self.pulses, self.calibration, self.close = read, calibration, close
+        self.pulses = read
+        self.calibration = calibration
+        self.close = close
 
     @property
     def at_rest(self) -> bool:

@@ -20,7 +20,7 @@ def flood(*topics: str, rate: float = RATE, size: int = 100) -> Act:
     """Return what says so many messages a second, of so many bytes, on topics in turn."""
 
     def before(bench: Bench) -> None:
-        arguments = [endpoint(bench.address), bench.robot, str(rate), str(size), *topics]
+        arguments = [endpoint(bench.place.address), bench.place.robot, str(rate), str(size), *topics]
         process = bench.run("flood", [sys.executable, "-m", "zteleop.chaos.flood", *arguments])
         if bench.until(lambda: process.words == "floods", START) is None:
             raise BusError(f"there is no flood: {process.words}")

@@ -45,7 +45,7 @@ def here(bench: Bench, node: Node | None = None) -> Iterator[None]:
 @contextmanager
 def far(bench: Bench) -> Iterator[None]:
     """Command from this process, behind a cable that can be cut."""
-    place = bench.folder / "cable"
+    place = bench.place.folder / "cable"
     bench.lay_cable(place)
     with here(bench, bench.join(place)):
         yield
@@ -79,5 +79,5 @@ OPERATORS = {"here": here, "far": far, "program": program, "keyboard": keyboard}
 
 
 def _where(bench: Bench) -> list[str]:
-    bus = ["--mode", "client", "--connect", endpoint(bench.address), "--no-multicast-scouting"]
-    return ["--robot", bench.robot, *bus]
+    bus = ["--mode", "client", "--connect", endpoint(bench.place.address), "--no-multicast-scouting"]
+    return ["--robot", bench.place.robot, *bus]

@@ -26,7 +26,8 @@ class Process:
         *,
         leashed: bool = False,
     ) -> None:
-        self.name, self._log = name, folder / f"{name}.log"
+        self.name = name
+        self._log = folder / f"{name}.log"
         with self._log.open("ab") as log:
             self._process = subprocess.Popen(
                 command,

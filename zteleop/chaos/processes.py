@@ -56,7 +56,7 @@ def order(words: str, whom: Callable[[int], Act]) -> Act:
     """Let a process do to itself what only it can."""
 
     def strike(bench: Bench) -> None:
-        bench.order.write_text(words)
+        bench.place.order.write_text(words)
         whom(signal.SIGUSR1)(bench)
 
     return strike

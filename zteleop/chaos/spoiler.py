@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import Self
 
 from zteleop.bus.settings import BusSettings
-from zteleop.bus.zenoh_session import ZenohSession, open_zenoh
+from zteleop.bus.zenoh_open import open_zenoh
+from zteleop.bus.zenoh_session import ZenohSession
 
 SOUND, SPOILT = b"spoilt", b"#@$*$#"
 """as long as each other: zenoh's frames say their length, and nothing else of what is in them"""

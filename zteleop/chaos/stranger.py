@@ -15,7 +15,8 @@ import zenoh
 
 from zteleop.bus import codec
 from zteleop.bus.settings import BusSettings
-from zteleop.bus.zenoh_session import ZenohSession, open_zenoh
+from zteleop.bus.zenoh_open import open_zenoh
+from zteleop.bus.zenoh_session import ZenohSession
 from zteleop.chaos.spoiler import dial, poison
 from zteleop.control.proof import Prover
 from zteleop.errors import BusError

@@ -20,8 +20,8 @@ def begin(attack: str, bench: Bench, where: str = "", name: str = "stranger") ->
 
     It ends with the bench.
     """
-    where = where or endpoint(bench.address)
-    return bench.run(name, [sys.executable, "-m", "zteleop.chaos.stranger", attack, where, bench.robot])
+    where = where or endpoint(bench.place.address)
+    return bench.run(name, [sys.executable, "-m", "zteleop.chaos.stranger", attack, where, bench.place.robot])
 
 
 def strike(attack: str, bench: Bench) -> None:

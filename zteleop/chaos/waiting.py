@@ -41,7 +41,8 @@ class Meter:
     """
 
     def __init__(self, path: Callable[[], Iterable[int]], proc: Path = Path("/proc")) -> None:
-        self._path, self._proc = path, proc
+        self._path = path
+        self._proc = proc
         self._pids = list(path())
         self._glanced = time.monotonic()
         self._first = self._last = self._read()

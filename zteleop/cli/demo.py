@@ -16,7 +16,8 @@ from zteleop.errors import BusError
 from zteleop.inputs.script import Script
 from zteleop.machine.leash import Process, leashed
 from zteleop.messages import Odometry
-from zteleop.nodes.teleop import Teleop, View
+from zteleop.nodes.teleop import Teleop
+from zteleop.screen.view import View
 
 START = 10.0
 
@@ -64,7 +65,8 @@ class Teller:
     def __init__(self) -> None:
         self.distance = 0.0
         self._place: tuple[float, float] | None = None
-        self._began = self._due = 0.0
+        self._began = 0.0
+        self._due = 0.0
 
     def __call__(self, view: View) -> None:
         if view.odom:

@@ -11,10 +11,11 @@ from zteleop.control.report import to_vehicle
 from zteleop.drivers import tick_us
 from zteleop.inputs.keyboard import Keyboard
 from zteleop.inputs.levers import Steps
-from zteleop.messages import Pwm, Twist, Vehicle
-from zteleop.nodes.teleop import Teleop, View
+from zteleop.messages import Vehicle
+from zteleop.nodes.teleop import Teleop
 from zteleop.screen.dashboard import Dashboard
 from zteleop.screen.render import render
+from zteleop.screen.view import View
 
 TRAIL = 400
 TRAIL_STEP = 0.05
@@ -75,23 +76,8 @@ def painter(keyboard: Keyboard, robot: str, steps: Steps) -> Callable[[View], No
         follow(trail, view)
         terminal = keyboard.terminal
         columns, rows = terminal.size()
-        dashboard = Dashboard(
-            robot=robot,
-            drive=keyboard.drive,
-            vehicle=view.vehicle,
-            stick=view.stick,
-            pwm=view.command if isinstance(view.command, Pwm) else None,
-            twist=view.command if isinstance(view.command, Twist) else None,
-            speeds=keyboard.speeds,
-            status=view.status,
-            ours=view.ours,
-            odom=view.odom,
-            trail=trail,
-            idle_left=keyboard.idle_left(view.now),
-            note=view.note,
-            alarm=view.alarm,
-            steps=steps,
-        )
+        left = keyboard.idle_left(view.now)
+        dashboard = Dashboard(robot, keyboard.drive, keyboard.speeds, view, trail, left, steps)
         terminal.draw(render(dashboard, columns, rows, unicode=terminal.unicode, color=terminal.color))
 
     return paint

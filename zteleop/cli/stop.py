@@ -53,7 +53,8 @@ class Stops:
     """Stops robots on the bus and on the lane beside it, and tells what each answers as it comes."""
 
     def __init__(self, lane: Call, why: str) -> None:
-        self._lane, self._why = lane, why
+        self._lane = lane
+        self._why = why
         self._asked: dict[str, Stopping] = {}
         self._told: set[str] = set()
 

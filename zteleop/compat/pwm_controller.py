@@ -26,7 +26,8 @@ class Pair:
                 f"PWMController needs the channels steering and throttle, found {', '.join(neutral)}; "
                 "publish a Twist on cmd_vel instead"
             )
-        self._pwms, self.vehicle = pwms, vehicle
+        self._pwms = pwms
+        self.vehicle = vehicle
         self._ticks = {name: neutral[name] for name in ("steering", "throttle")}
 
     def set_ticks(self, name: str, ticks: int) -> None:

@@ -5,8 +5,10 @@ class Allowance:
     """Lets `at_once` pass, and one more each `every` seconds."""
 
     def __init__(self, at_once: int, every: float) -> None:
-        self._at_once, self._every = at_once, every
-        self._left, self._counted = float(at_once), float("-inf")
+        self._at_once = at_once
+        self._every = every
+        self._left = float(at_once)
+        self._counted = float("-inf")
 
     def has(self, now: float) -> bool:
         """Say whether one more may pass now."""

@@ -11,7 +11,8 @@ class Calibration:
     """The servos, and the chip's real tick in microseconds."""
 
     def __init__(self, servos: Mapping[str, Servo], tick_us: float) -> None:
-        self._servos, self._tick_us = servos, tick_us
+        self._servos = servos
+        self._tick_us = tick_us
         self.rest: Wheels = dict.fromkeys(servos, 0.0)
         self.neutral_us = self.pulse_us(self.rest)
 

@@ -97,7 +97,9 @@ class Cap:
     """Follows the link of whoever drives each source, and the strain on the robot; never speeds it up."""
 
     def __init__(self, settings: CapSettings, top: float, sources: Mapping[str, Source]) -> None:
-        self._settings, self.top, self._sources = settings, top, sources
+        self._settings = settings
+        self.top = top
+        self._sources = sources
         self._ages: dict[str, Ages] = {}
         self.strain = AT_EASE
 

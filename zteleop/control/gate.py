@@ -62,7 +62,8 @@ class Gate:
     """
 
     def __init__(self, deadlines: Deadlines, epoch: int, now: float, grace: float = 0.0) -> None:
-        self._deadlines, self._grace = deadlines, grace
+        self._deadlines = deadlines
+        self._grace = grace
         self._senders: OrderedDict[int, Seen] = OrderedDict()
         self.restart(epoch, now)
 

@@ -57,7 +57,8 @@ class Judge:
     """Knows which commands may move the robot now, and whether the chip's pulses are those of rest."""
 
     def __init__(self, settings: DriveSettings, tick_us: float, now: float) -> None:
-        later, self._calibration = _later(settings), Calibration(settings.servos, tick_us)
+        later = _later(settings)
+        self._calibration = Calibration(settings.servos, tick_us)
         claims = EveryClaim(Silences(later.known_sources, later.deadlines.operator))
         self._admission = Admission(later, self._calibration, -1, now, claims, GRACE)
         self.neutral_us = self._calibration.neutral_us
@@ -65,7 +66,8 @@ class Judge:
         self._stopped: float | None = None
         self._last_stopped = now
         self._bad_looks = 0
-        self._interrupted = self.released = NEVER
+        self._interrupted = NEVER
+        self.released = NEVER
         self.moving = False
 
     def hear_report(self, standing: Standing) -> None:

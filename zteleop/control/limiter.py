@@ -43,7 +43,8 @@ class TwistLimiter:
     def __init__(self, limits: Limits, mixer: Mixer) -> None:
         self._limits = limits
         self._steers = mixer.steers
-        self._speed, self._turn = limits.speed_of(mixer), limits.turn_of(mixer)
+        self._speed = limits.speed_of(mixer)
+        self._turn = limits.turn_of(mixer)
         self._last = (0.0, 0.0)
         self._then: float | None = None
 
@@ -88,7 +89,8 @@ class WheelLimiter:
     """Slews each channel, and obeys the driven ones for a share of the time only."""
 
     def __init__(self, limits: Limits, mixer: Mixer, servos: dict[str, Servo]) -> None:
-        self._limits, self._mixer = limits, mixer
+        self._limits = limits
+        self._mixer = mixer
         self._rates = {name: servo.slew_rate for name, servo in servos.items()}
         if mixer.takes_ticks and self._rates["throttle"] is None:  # ticks pass the limiter of twists by
             self._rates["throttle"] = limits.acceleration / mixer.max_speed

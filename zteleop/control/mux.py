@@ -49,7 +49,8 @@ class Silences:
     """When a claim is over: nothing more was heard of its sender, or by it, or nobody acts any more."""
 
     def __init__(self, sources: Mapping[str, Source], operator: float) -> None:
-        self._sources, self._operator = sources, operator
+        self._sources = sources
+        self._operator = operator
 
     def silent(self, claim: Claim, now: float) -> bool:
         """Say whether nothing more was heard of a claim's sender, or by its sender."""
@@ -88,7 +89,8 @@ class Mux:
     """Keeps the claim of each source until it is let go."""
 
     def __init__(self, sources: Mapping[str, Source], silences: Silences, link_loss: float) -> None:
-        self._silences, self._link_loss = silences, link_loss
+        self._silences = silences
+        self._link_loss = link_loss
         self._ranked = sorted(sources, key=lambda name: -sources[name].priority)
         self._claims: dict[str, Claim] = {}
         self._waiting: dict[tuple[str, int], float] = {}

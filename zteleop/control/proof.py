@@ -39,10 +39,13 @@ class Prover:
     """Makes the proofs of one sender."""
 
     def __init__(self, sender: int, silence: float = PROGRAM_SILENCE, lapse: float = LAPSE) -> None:
-        self._sender, self._silence, self._lapse = sender, silence, max(silence, lapse)
+        self._sender = sender
+        self._silence = silence
+        self._lapse = max(silence, lapse)
         self._seq = 0
         self._epoch = -1
-        self._acted = self._began = NEVER
+        self._acted = NEVER
+        self._began = NEVER
         self._moving = False
         self._then = NEVER
 

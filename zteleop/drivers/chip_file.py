@@ -38,7 +38,8 @@ class ChipMemory:
     """
 
     def __init__(self, path: str, access: int) -> None:
-        self._path, self._access = path, access
+        self._path = path
+        self._access = access
         self._open()
 
     def __getitem__(self, place: slice) -> bytes:

@@ -41,7 +41,8 @@ class LinuxI2C:
 
     def __init__(self, adapter: Any, message: Any, name: str) -> None:
         self.name = name
-        self._adapter, self._message = adapter, message
+        self._adapter = adapter
+        self._message = message
         self.read_byte_data = adapter.read_byte_data
         self.read_i2c_block_data = adapter.read_i2c_block_data
         self.write_byte_data = adapter.write_byte_data

@@ -18,7 +18,10 @@ class OutputEnable:
     """
 
     def __init__(self, request: Any, line: int, value: Any, name: str) -> None:
-        self._request, self._line, self._value, self._name = request, line, value, name
+        self._request = request
+        self._line = line
+        self._value = value
+        self._name = name
 
     def enable(self) -> None:
         """Let the pulses out: the pin goes low; raises DeviceError."""

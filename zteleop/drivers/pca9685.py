@@ -63,10 +63,13 @@ class Pca9685:
     def __init__(
         self, i2c: I2C, settings: Pca9685Settings, sleep: Callable[[float], None] = time.sleep
     ) -> None:
-        self._port, self._osc_hz, self._sleep = Port(i2c, settings.address), settings.osc_hz, sleep
+        self._port = Port(i2c, settings.address)
+        self._osc_hz = settings.osc_hz
+        self._sleep = sleep
         self._lock: Lock | None = None
         self._prescale = prescale(settings.frequency_hz, settings.osc_hz)
-        self.tick_us, self.arming = tick_us(self._prescale, settings.osc_hz), settings.arming
+        self.tick_us = tick_us(self._prescale, settings.osc_hz)
+        self.arming = settings.arming
         self._modes = {MODE1: AUTO_INCREMENT, MODE2: OUTDRV, PRE_SCALE: self._prescale}
 
     def claim(self, path: str) -> None:

@@ -20,7 +20,8 @@ class Port:
     """The registers at one address of a bus; transfers raise OSError, `in_words` makes it a DeviceError."""
 
     def __init__(self, i2c: I2C, address: int) -> None:
-        self._i2c, self._address = i2c, address
+        self._i2c = i2c
+        self._address = address
         self._found: str | None = None
         self.what = f"the PCA9685 at 0x{address:02x} on {i2c.name}"
         self.close = i2c.close

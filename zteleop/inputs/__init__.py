@@ -21,14 +21,16 @@ class Input(Protocol):
 
     drive: Literal["step", "hold"]
     """step makes Pwm (latched levers), hold makes Twist (drive while held)."""
-    speeds: Speeds
-    """What a full stick means."""
     finished: bool
     """The operator asked to end."""
     rested: bool
     """It was at neutral since this was last taken, be it between two acts that came at once"""
     wish: Wish | None
     """What it asks of the robot besides; whoever takes it leaves None. A release never takes back a stop."""
+
+    @property
+    def speeds(self) -> Speeds:
+        """What a full stick means."""
 
     def fileno(self) -> int | None:
         """Return what turns readable when something was done; None for a device without a file."""

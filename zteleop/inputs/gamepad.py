@@ -4,7 +4,8 @@ from typing import Literal, Self
 
 from zteleop.control.stick import Speeds, Stick
 from zteleop.inputs import Wish
-from zteleop.inputs.gamepad_map import FORGET, GamepadSettings, Moved, Pads, rescale
+from zteleop.inputs.gamepad_controls import Controls
+from zteleop.inputs.gamepad_map import FORGET, GamepadSettings, Moved, Pads
 from zteleop.messages import Vehicle
 
 RELEASE_HELD = 1.0
@@ -28,11 +29,11 @@ class Gamepad:
         self.wish: Wish | None = None
         self.silence = self.settings.silence
         self._pads = pads
-        self._controls = self.settings.controls
+        self._controls = Controls(self.settings)
         self._speeds = speeds or Speeds()
         self._fastest = self._speeds
-        self._at: dict[str, float] = {}
-        self._ready = self._silent = False
+        self._ready = False
+        self._silent = False
         self._heard = float("-inf")
         self._release_since: float | None = None
 
@@ -41,13 +42,13 @@ class Gamepad:
         return self
 
     def __exit__(self, *exc: object) -> None:
-        self._at.clear()
+        self._controls.forget()
         self._pads.__exit__(*exc)
 
     @property
     def speeds(self) -> Speeds:
         """What a full stick means: the robot's most while turbo is held."""
-        return self._fastest if self._is("turbo") else self._speeds
+        return self._fastest if self._controls.presses("turbo") else self._speeds
 
     def fileno(self) -> int | None:
         """Return what turns readable when a control moved; None where nothing does."""
@@ -77,8 +78,7 @@ class Gamepad:
         """Return where the stick is; nobody holds it unless the dead-man, or turbo, is held."""
         if not self._holding or now - self._heard >= self.silence:
             return Stick()
-        forward, turn = (self._axis(use) for use in ("forward", "turn"))
-        return Stick(forward, turn, deadman=True)
+        return Stick(self._controls.axis("forward"), self._controls.axis("turn"), deadman=True)
 
     def idle_left(self, now: float) -> float | None:
         """Return the seconds until neutral unless the pad gives a sign of life; None when nobody holds it."""
@@ -97,10 +97,11 @@ class Gamepad:
     @property
     def words(self) -> str:
         """What the operator must do to drive, or why he cannot, in a sentence."""
-        name, hold = self._pads.name, self._controls["deadman"].label
+        name = self._pads.name
+        hold = self._controls.label("deadman")
         if not name:
             return self._pads.trouble or "waiting for a gamepad: plug one in, or switch it on"
-        if missing := self._missing():
+        if missing := self._controls.missing:
             return f"{name} has no {missing}; zteleop gamepad --learn finds out what it has"
         if self._ready:
             return f"{name}: {self._help()}"
@@ -113,24 +114,15 @@ class Gamepad:
         return self._ready and self._is_enabled()
 
     def _is_enabled(self) -> bool:
-        return self._is("deadman") or self._is("turbo")
-
-    def _is(self, use: str) -> bool:
-        return use in self._controls and self._controls[use].pressed(self._at)
-
-    def _axis(self, use: str) -> float:
-        return rescale(self._controls[use].of(self._at), self.settings.deadzone)
+        return self._controls.presses("deadman") or self._controls.presses("turbo")
 
     def _take(self, moved: Moved, now: float) -> None:
         if moved == FORGET:
-            self._at.clear()
+            self._controls.forget()
             self._release_since = None
             self.reset(now)
             return
-        before = {use: self._is(use) for use in ("stop", "release")}
-        known = moved.name in self._at  # where it was found is no press
-        self._at[moved.name] = moved.value
-        pressed = {use for use, was in before.items() if known and not was and self._is(use)}
+        pressed = self._controls.move(moved)
         if "stop" in pressed:
             self.stop_robot(now)
         if "release" in pressed:
@@ -138,32 +130,24 @@ class Gamepad:
         self._get_ready()
 
     def _get_ready(self) -> None:
-        if self._ready or self._is_enabled() or not self._pads.name or self._missing():
+        if self._ready or self._is_enabled() or not self._pads.name or self._controls.missing:
             return
-        if not self._axis("forward") and not self._axis("turn"):
-            self._ready, self._silent = True, False
+        if not self._controls.axis("forward") and not self._controls.axis("turn"):
+            self._ready = True
+            self._silent = False
 
     def _look_at_release(self, now: float) -> None:
         """Ask for the end of a stop once the button was held alone for a while."""
-        if self._is_enabled() or self._is("stop") or not self._is("release"):
+        if self._is_enabled() or self._controls.presses("stop") or not self._controls.presses("release"):
             self._release_since = None
         elif self._release_since is not None and now - self._release_since >= RELEASE_HELD:
             self._release_since = None
             self.wish = self.wish or Wish.RELEASE
 
-    def _name(self, use: str) -> str | None:
-        return self._controls[use].name if use in self._controls else None
-
-    def _missing(self) -> str:
-        needed = (self._controls[use].name for use in ("forward", "turn", "deadman"))
-        return " and no ".join(dict.fromkeys(name for name in needed if name not in self._at))
-
     def _help(self) -> str:
         does = {"deadman": "to drive", "turbo": "for full speed"}
-        held = [f"hold {self._controls[use].label} {what}" for use, what in does.items() if self._has(use)]
-        stop = [f"{self._controls['stop'].label} stops the robot"] if self._has("stop") else []
-        release = [f"{self._controls['release'].label} held ends the stop"] if self._has("release") else []
+        pad = self._controls
+        held = [f"hold {pad.label(use)} {what}" for use, what in does.items() if pad.has(use)]
+        stop = [f"{pad.label('stop')} stops the robot"] if pad.has("stop") else []
+        release = [f"{pad.label('release')} held ends the stop"] if pad.has("release") else []
         return ", ".join([*held, *stop, *release])
-
-    def _has(self, use: str) -> bool:
-        return self._name(use) in self._at

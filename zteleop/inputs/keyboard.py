@@ -3,25 +3,22 @@
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Literal, Self
 
-from msgspec.structs import replace
-
 from zteleop.control.stick import Speeds, Stick
 from zteleop.errors import DeviceError
 from zteleop.inputs import Wish
 from zteleop.inputs.held_keys import FIRST, REPEATING, Block, HeldKeys
 from zteleop.inputs.keymap import DIRECTIONS, bindings
 from zteleop.inputs.levers import Axis, Levers, Steps
+from zteleop.inputs.speed_keys import FASTER, SLOWER, SpeedKeys
+from zteleop.inputs.wishes import Wishes
 from zteleop.messages import Vehicle
-from zteleop.terminal.keys import KeyParser
+from zteleop.terminal.typed import Typed
 
 if TYPE_CHECKING:
     from zteleop.terminal.terminal import Terminal
 
 IDLE_LIMIT = 5.0
 """s without a key until neutral; the robot may shorten it."""
-FASTER, SLOWER = 1.1, 0.9
-SLOWEST, FASTEST = 0.01, 100.0
-"""m/s or rad/s between which keys move a speed, so that it is never stuck at zero."""
 
 
 class Keyboard:
@@ -40,23 +37,20 @@ class Keyboard:
         terminal: "Terminal | None" = None,
     ) -> None:
         self.drive: Literal["step", "hold"] = drive
-        self.speeds = speeds or Speeds()
-        self.finished = self.rested = False
-        self.wish: Wish | None = None
+        self.finished = False
+        self.rested = False
         self.suspending = False
         """Ctrl-Z was pressed: publish neutral, then call `suspend`."""
         self.idle_limit = IDLE_LIMIT
         self._bindings = bindings(keys or {}, {*ACTIONS, *DIRECTIONS})
-        self.terminal = terminal or open_terminal()
-        self._parser = KeyParser()
+        self._typed = Typed(terminal or open_terminal())
+        self._speed_keys = SpeedKeys(speeds or Speeds())
+        self._wishes = Wishes()
         self._levers = Levers(steps)
         self._held = HeldKeys()
         self._block = Block()
-        self._fastest = Speeds(FASTEST, FASTEST)
         self._now = 0.0
         self._acted = float("-inf")
-        self._resumed = 0
-        self._asked = dict.fromkeys(Wish, float("-inf"))
 
     def __enter__(self) -> Self:
         self.terminal.__enter__()
@@ -65,6 +59,25 @@ class Keyboard:
     def __exit__(self, *exc: object) -> None:
         self.neutral()
         self.terminal.__exit__(*exc)
+
+    @property
+    def terminal(self) -> "Terminal":
+        """Where the keys come from."""
+        return self._typed.terminal
+
+    @property
+    def speeds(self) -> Speeds:
+        """What a full stick means, in m/s and rad/s."""
+        return self._speed_keys.speeds
+
+    @property
+    def wish(self) -> Wish | None:
+        """What the operator asks of the robot besides; whoever takes it leaves None."""
+        return self._wishes.newest
+
+    @wish.setter
+    def wish(self, wish: Wish | None) -> None:
+        self._wishes.newest = wish
 
     def fileno(self) -> int:
         """Return what turns readable when a key was pressed."""
@@ -78,19 +91,15 @@ class Keyboard:
         if self.drive == "step" and self._levers.fit(vehicle):
             self.reset(self._now)
         self.idle_limit = min(IDLE_LIMIT, vehicle.operator_silence)
-        self._fastest = Speeds(vehicle.max_speed, vehicle.max_turn)
-        self._set_speeds(self.speeds.forward, self.speeds.turn)
+        self._speed_keys.fit(vehicle)
 
     def read(self, now: float) -> bool:
         """Take in the keys pressed, without blocking; True when there were any."""
         self._now = now
-        keys = self._parser.flush(now)
-        try:
-            keys += self._parser.feed(self.terminal.read(), now)
-        except EOFError:
+        keys = self._typed.read(now)
+        if self._typed.ended:
             self.quit()
-        if self.terminal.resumed != self._resumed:
-            self._resumed = self.terminal.resumed
+        if self._typed.went_on():
             self.reset(now)
         if self._idle(now):  # a loop that came late must not step on from where it was
             self.neutral()
@@ -117,9 +126,7 @@ class Keyboard:
 
     def suspend(self, now: float) -> None:
         """Stop the process as Ctrl-Z asked and return when it goes on, neutral."""
-        self.terminal.suspend()
-        self._resumed = self.terminal.resumed
-        self._parser = KeyParser()
+        self._typed.suspend()
         self.suspending = False
         self.reset(now)
 
@@ -156,16 +163,11 @@ class Keyboard:
     def stop_robot(self) -> None:
         """Go neutral and ask for a stop that stays; a key that repeats is one press."""
         self.reset(self._now)
-        self._ask(Wish.STOP, REPEATING)
+        self._wishes.ask(Wish.STOP, REPEATING, self._now)
 
     def release_robot(self) -> None:
         """Ask for the release of the stop; held down, never of one that came later."""
-        self._ask(Wish.RELEASE, FIRST)
-
-    def _ask(self, wish: Wish, gap: float) -> None:
-        if self._now - self._asked[wish] > gap and self.wish is not Wish.STOP:
-            self.wish = wish
-        self._asked[wish] = self._now
+        self._wishes.ask(Wish.RELEASE, FIRST, self._now)
 
     def quit(self) -> None:
         """Ask the program to end, neutral."""
@@ -183,26 +185,19 @@ class Keyboard:
 
     def faster(self) -> None:
         """Raise the forward speed."""
-        self._set_speeds(self.speeds.forward * FASTER, self.speeds.turn)
+        self._speed_keys.scale(forward=FASTER)
 
     def slower(self) -> None:
         """Lower the forward speed."""
-        self._set_speeds(self.speeds.forward * SLOWER, self.speeds.turn)
+        self._speed_keys.scale(forward=SLOWER)
 
     def turn_faster(self) -> None:
         """Raise the turning speed."""
-        self._set_speeds(self.speeds.forward, self.speeds.turn * FASTER)
+        self._speed_keys.scale(turn=FASTER)
 
     def turn_slower(self) -> None:
         """Lower the turning speed."""
-        self._set_speeds(self.speeds.forward, self.speeds.turn * SLOWER)
-
-    def _set_speeds(self, forward: float, turn: float) -> None:
-        self.speeds = replace(
-            self.speeds,
-            forward=min(max(forward, SLOWEST), self._fastest.forward),
-            turn=min(max(turn, SLOWEST), self._fastest.turn),
-        )
+        self._speed_keys.scale(turn=SLOWER)
 
 
 ACTIONS: dict[str, Callable[[Keyboard], None]] = {

@@ -45,7 +45,8 @@ class _Builder:
     def __init__(self, schema: object, ros_type: str) -> None:
         self._ros_type = ros_type
         found = schema if isinstance(schema, Mapping) else {}
-        self._root, parts = found.get("$ref"), found.get("$defs")
+        self._root = found.get("$ref")
+        parts = found.get("$defs")
         self._parts: Mapping[str, Any] = parts if isinstance(parts, Mapping) else {}
         self._built: dict[str, type[Message]] = {}
         if len(self._parts) > MOST_PARTS:

@@ -72,7 +72,9 @@ class _Structs:
     def __init__(
         self, find: Find, known: Mapping[str, type[Message]], made: dict[str, type[Message]]
     ) -> None:
-        self._find, self._known, self._made = find, known, made
+        self._find = find
+        self._known = known
+        self._made = made
 
     def of(self, ros_type: str, within: tuple[str, ...] = ()) -> type[Message]:
         if found := self._known.get(ros_type) or self._made.get(ros_type):

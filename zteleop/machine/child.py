@@ -8,11 +8,9 @@ import msgspec
 
 from zteleop.control.standing import Standing
 from zteleop.machine import link
+from zteleop.machine.backoff import BackOff
 from zteleop.machine.link import Report, WatchdogEnd
 
-FIRST_PAUSE, LONGEST_PAUSE = 0.1, 5.0
-"""s between an end and the next start; doubled each time, until one has lived for STEADY."""
-STEADY = 10.0
 DIES_WITHIN = 0.1
 """s for a killed process to go; one that is stuck in the kernel takes longer."""
 
@@ -24,13 +22,17 @@ class Child:
     """
 
     def __init__(self, command: Sequence[str], settings: bytes, shared: Sequence[int] = ()) -> None:
-        self._command, self._settings, self._shared = command, settings, shared
+        self._command = command
+        self._settings = settings
+        self._shared = shared
         self._process: subprocess.Popen[bytes] | None = None
         self.link: WatchdogEnd | None = None
         self.newest: Report | None = None
+        self.stopped_since: float | None = None
+        """When it first said that it rests for a stop, which it has said ever since."""
         self.started = float("-inf")
         self.starts = 0
-        self._pause = FIRST_PAUSE
+        self._backoff = BackOff()
 
     @property
     def ready(self) -> bool:
@@ -52,13 +54,16 @@ class Child:
         assert self._process.stdin
         with suppress(BrokenPipeError), self._process.stdin as settings:
             settings.write(self._settings + b"\n" + msgspec.json.encode(standing))
-        self.newest, self.started = None, now
+        self.newest = None
+        self.stopped_since = None
+        self.started = now
         self.starts += 1
 
-    def hear(self) -> None:
+    def hear(self, now: float) -> None:
         """Take in its reports; raises EOFError when it is gone."""
-        if self.link:
-            self.newest = self.link.read() or self.newest
+        if self.link and (report := self.link.read()):
+            self.newest = report
+            self.stopped_since = (self.stopped_since or now) if report.stopped else None
 
     def silence(self, now: float) -> float:
         """Return the seconds since its last step, or since it was started."""
@@ -90,7 +95,4 @@ class Child:
 
     def pause(self, now: float) -> float:
         """Return for how long to wait before the next start."""
-        if now - self.started > STEADY:
-            self._pause = FIRST_PAUSE
-        pause, self._pause = self._pause, min(2 * self._pause, LONGEST_PAUSE)
-        return pause
+        return self._backoff.pause(now - self.started)

@@ -6,21 +6,16 @@ import socket
 import subprocess
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from pathlib import Path
 
-from zteleop.control.deadlines import DOOR_SILENCE, DOOR_START, LATE_STEP, LONGEST_OPENING
+from zteleop.control.deadlines import LATE_STEP
+from zteleop.machine.backoff import BackOff
+from zteleop.machine.vigil import Vigil
 
 ALIVE = b"."
 """What a door says to its watchdog every `ALIVE_EVERY` s."""
 ALIVE_EVERY = 0.05
-LARGEST = 192 * 2**20
-"""bytes of memory; strangers fill it, and the robot's own processes need the rest of the machine"""
 MALLOC = {"MALLOC_ARENA_MAX": "1"}
 """for glibc: where each thread has an arena of its own, what thousands of sessions leave is not used again"""
-WEIGH_EVERY = 0.5
-FIRST_PAUSE, LONGEST_PAUSE = 0.1, 5.0
-"""s between an end and the next start, doubled each time; none at first, and once one has lived for STEADY"""
-STEADY = 10.0
 ENDS_WITHIN = 1.0
 
 
@@ -34,17 +29,21 @@ class Door:
         place: str,
         say: Callable[[str], object],
     ) -> None:
-        self._command, self._orders, self.place, self.say = command, orders, place, say
+        self._command = command
+        self._orders = orders
+        self.place = place
+        self.say = say
         self._listener = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         self._listener.bind(place)
         self._listener.listen()
         self._process: subprocess.Popen[bytes] | None = None
         self._link: socket.socket | None = None
-        self._started = self._heard = self._looked = self._weighed = float("-inf")
-        self._patience = DOOR_START
-        self._pause = 0.0
+        self._vigil = Vigil()
+        self._backoff = BackOff(first=0.0)
+        self._looked = float("-inf")
         self._due: float | None = None
-        self.is_open = self._was_open = False
+        self.is_open = False
+        self._was_open = False
         self.starts = 0
 
     @property
@@ -56,7 +55,8 @@ class Door:
 
     def start(self, now: float) -> None:
         """Start the process; nobody else holds its end of the link. Raises OSError when the system cannot."""
-        self._started, self.is_open = now, False
+        self._vigil.begin(now)
+        self.is_open = False
         self._link, theirs = socket.socketpair()
         self._link.setblocking(False)
         with theirs:
@@ -76,7 +76,8 @@ class Door:
 
     def tend(self, now: float) -> None:
         """Notice that it broke, end what is left of it, and start the next when it is time; `now` in s."""
-        late, self._looked = now - self._looked > LATE_STEP, now
+        late = now - self._looked > LATE_STEP
+        self._looked = now
         if self.refused:
             return
         if self._due is not None:
@@ -106,9 +107,9 @@ class Door:
         """Take in what it said; return why it is no more."""
         assert self._link
         try:
-            while said := self._link.recv(4096):
-                self._heard = now
-                if not self.is_open and said:
+            while self._link.recv(4096):
+                self._vigil.hear(now, first=not self.is_open)
+                if not self.is_open:
                     self._open(now)
         except BlockingIOError:
             return ""
@@ -122,31 +123,18 @@ class Door:
         return "it ended"
 
     def _open(self, now: float) -> None:
-        self.is_open, self._was_open, self._patience = True, True, DOOR_START
+        self.is_open = True
+        self._was_open = True
         if self.starts > 1:
-            self.say(f"the door is open again, {now - self._started:.1f} s after its start")
+            self.say(f"the door is open again, {now - self._vigil.started:.1f} s after its start")
 
     def _judge(self, now: float) -> str:
-        """Return what it is to be ended for."""
-        if not self.is_open:
-            if now - self._started <= self._patience:
-                return ""
-            had, self._patience = self._patience, min(2 * self._patience, LONGEST_OPENING)
-            return f"it did not open within {had:g} s of its start, and the next has {self._patience:g} s"
-        if now - self._heard > DOOR_SILENCE:
-            return f"it was silent for {now - self._heard:.1f} s"
-        if now - self._weighed > WEIGH_EVERY:
-            self._weighed = now
-            weight = self._weigh()
-            if weight > LARGEST:
-                return f"it had grown to {weight // 2**20} MB, of {LARGEST // 2**20}"
-        return ""
+        assert self._process
+        return self._vigil.judge(self._process.pid, self.is_open, now)
 
     def _break(self, why: str, now: float) -> None:
-        if now - self._started > STEADY:
-            self._pause = 0.0
-        self._due = now + self._pause
-        pause, self._pause = self._pause, min(max(FIRST_PAUSE, 2 * self._pause), LONGEST_PAUSE)
+        pause = self._backoff.pause(now - self._vigil.started)
+        self._due = now + pause
         after = f" in {pause:g} s" if pause else ""
         self._kill()
         if self._link:
@@ -161,11 +149,3 @@ class Door:
     @property
     def _is_gone(self) -> bool:
         return self._process is None or self._process.poll() is not None
-
-    def _weigh(self) -> int:
-        """Return the bytes of memory that it holds by itself; nothing where the system does not tell."""
-        assert self._process
-        with suppress(OSError, ValueError, IndexError):
-            pages = Path(f"/proc/{self._process.pid}/statm").read_text().split()
-            return (int(pages[1]) - int(pages[2])) * os.sysconf("SC_PAGE_SIZE")
-        return 0

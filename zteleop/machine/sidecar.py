@@ -19,10 +19,13 @@ class Recorder:
     """Runs `command` with settings on its stdin, which stays open for as long as this process lives."""
 
     def __init__(self, command: Sequence[str], settings: bytes, warn: Callable[[str], object]) -> None:
-        self._command, self._settings, self._warn = command, settings, warn
+        self._command = command
+        self._settings = settings
+        self._warn = warn
         self._process: subprocess.Popen[bytes] | None = None
         self._due: float | None = None
-        self._starts, self._started = 0, float("-inf")
+        self._starts = 0
+        self._started = float("-inf")
 
     def tend(self, now: float) -> None:
         """Start it when it is time, and again a few times when it has ended; `now` in seconds."""

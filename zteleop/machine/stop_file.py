@@ -20,7 +20,8 @@ class StopFile:
     """Keeps one robot's stops; what cannot be kept is said to `warn`, and tried again by `tend`."""
 
     def __init__(self, path: Path, warn: Callable[[str], object]) -> None:
-        self.path, self._warn = path, warn
+        self.path = path
+        self._warn = warn
         self._past = path.with_name(f"{path.name}.released")
         self._stops: tuple[Stop, ...] = ()
         self._looked: tuple[int, ...] = ()

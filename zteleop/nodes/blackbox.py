@@ -33,7 +33,8 @@ class Writer:
     """Writes files in a thread: a disk may hang, and pressing 24 MB takes a second."""
 
     def __init__(self, robot: str, folder: Path) -> None:
-        self._robot, self._folder = robot, folder
+        self._robot = robot
+        self._folder = folder
         self._thread: threading.Thread | None = None
         self.trouble = ""
         """what the disk last refused, in words"""
@@ -85,12 +86,17 @@ class BlackBox:
     def __init__(
         self, node: Node, tap: Tap, ring: Ring, writer: Writer, ear: int, warn: Callable[[str], object]
     ) -> None:
-        self._node, self._tap, self._ring, self._writer, self._ear = node, tap, ring, writer, ear
+        self._node = node
+        self._tap = tap
+        self._ring = ring
+        self._writer = writer
+        self._ear = ear
         self._triggers = Triggers()
         self._waiting: list[Trigger] = []
         self._due = float("inf")
         self._written = float("-inf")
-        self._warn, self._warned = warn, False
+        self._warn = warn
+        self._warned = False
         self._parted = False
 
     def run(self) -> None:

@@ -19,7 +19,8 @@ class Hand:
     """A chip that somebody else drives."""
 
     def __init__(self, chip: PulseDriver, enable: Callable[[bool], bool], judge: Judge) -> None:
-        self._chip, self._judge = chip, judge
+        self._chip = chip
+        self._judge = judge
         self._enable = enable
         """Lets the chip's outputs through, or cuts them; says whether a pin did."""
         self._neutral_us = judge.neutral_us
@@ -32,7 +33,8 @@ class Hand:
         """Why it cannot be read."""
         self.took = 0.0
         """s of the last look"""
-        self.seen = self._look_after = clock.now()
+        self.seen = clock.now()
+        self._look_after = clock.now()
         self._missed = 0
 
     def is_due(self, now: float) -> bool:

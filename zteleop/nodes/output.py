@@ -6,6 +6,7 @@ from contextlib import suppress
 from zteleop.bus import clock
 from zteleop.control.drive import Drive
 from zteleop.control.evidence import Evidence
+from zteleop.control.pace import SLOW, Pace
 from zteleop.drivers import PulseDriver
 from zteleop.drivers.registers import CHANNELS
 from zteleop.errors import DeviceError
@@ -14,10 +15,6 @@ from zteleop.messages import Confirmed
 FAILED_STEPS = 3
 """in a row that make a fault; each has written three times already"""
 REPAIR_EVERY = 0.1
-SLOW = 0.05
-"""s for neutral to fail or go out, beyond which this step asks nothing more of the bus"""
-SLOW_WRITES, QUICK_WRITES = 3, 25
-"""in a row make a bus that is too slow to drive on, or one that is so no more"""
 FAULT, SLOWNESS, ARMING = "chip", "bus", "arming"
 
 
@@ -25,17 +22,22 @@ class Output:
     """Writes pulses; keeps the drive at rest while its chip is at fault, and while the ESC arms."""
 
     def __init__(self, driver: PulseDriver, drive: Drive, say: Callable[[str], object]) -> None:
-        self._driver, self._admission, self._say = driver, drive.admission, say
+        self._driver = driver
+        self._admission = drive.admission
+        self._say = say
         self._calibration = drive.calibration
         self._neutral_us = drive.calibration.neutral_us
         self._taken: Mapping[int, float] = self._neutral_us
         self._written = 0.0
-        self._failed = self._slow = self._quick = 0
+        self._failed = 0
         """Writes in a row."""
-        self._broken = self._reads_rest = False
+        self._bus = Pace()
+        self._broken = False
+        self._reads_rest = False
         self.is_cut = False
         """The watchdog says that no pulse leaves the chip, whatever it was told."""
-        self._repair_at = self._armed_at = 0.0
+        self._repair_at = 0.0
+        self._armed_at = 0.0
 
     @property
     def evidence(self) -> Evidence:
@@ -70,7 +72,7 @@ class Output:
 
         Not on a slow bus, where whatever is read holds up the next neutral.
         """
-        if not self._broken and not self._slow:
+        if not self._broken and not self._bus.is_slow:
             try:
                 self._look_twice()
             except DeviceError as error:
@@ -80,7 +82,7 @@ class Output:
     def confirm(self) -> None:
         """Read back whether a robot that is stopped stands; what cannot be read is not known."""
         self._reads_rest = False
-        if self._admission.latch.stops and not self._broken and not self._slow:
+        if self._admission.latch.stops and not self._broken and not self._bus.is_slow:
             with suppress(DeviceError):
                 self._reads_rest = self._calibration.at_rest(self._driver.read(self._neutral_us))
 
@@ -100,12 +102,14 @@ class Output:
 
     def _take(self, pulse_us: Mapping[int, float]) -> None:
         self._driver.write(pulse_us)
-        self._taken, self._written = pulse_us, clock.now()
+        self._taken = pulse_us
+        self._written = clock.now()
         self._reads_rest = self._reads_rest and pulse_us == self._neutral_us
 
     def _start(self) -> None:
         self._driver.start(self._neutral_us)
-        self._taken, self._written = self._neutral_us, clock.now()
+        self._taken = self._neutral_us
+        self._written = clock.now()
 
     def _tell_others(self) -> None:
         """Say which channels move that nobody here commands: no stop reaches them."""
@@ -119,14 +123,13 @@ class Output:
 
     def _notice_slowness(self, took: float, now: float) -> None:
         """Keep the robot at rest on a bus that is slow: each command, and each neutral, would come late."""
-        slow = took > SLOW
-        self._slow, self._quick = (self._slow + 1, 0) if slow else (0, self._quick + 1)
-        if self._slow >= SLOW_WRITES:
+        self._bus.count(took)
+        if self._bus.drags:
             words = f"its bus is slow: a write took {took * 1000:.0f} ms, of at most {SLOW * 1000:.0f}"
             if SLOWNESS not in self._admission.holds:
                 self._say(f"the chip is at fault: {words}")
             self._admission.hold(SLOWNESS, "fault", f"{words}; look at its wires, pull-ups and clock", now)
-        elif self._quick >= QUICK_WRITES and SLOWNESS in self._admission.holds:
+        elif self._bus.runs and SLOWNESS in self._admission.holds:
             self._say("the bus of the chip is quick again")
             self._admission.free(SLOWNESS, now)
 
@@ -147,7 +150,9 @@ class Output:
         return clock.now() - began <= SLOW
 
     def _break(self, words: str, now: float) -> None:
-        self._broken, self._reads_rest, self._repair_at = True, False, now
+        self._broken = True
+        self._reads_rest = False
+        self._repair_at = now
         self._say(f"the chip is at fault: {words}")
         self._admission.hold(FAULT, "fault", words, now)
 
@@ -158,7 +163,8 @@ class Output:
         except DeviceError as error:
             self._admission.hold(FAULT, "fault", str(error), now)
             return
-        self._broken, self._failed = False, 0
+        self._broken = False
+        self._failed = 0
         self._say("the chip is back, at neutral")
         self._arm(now)
         self._admission.free(FAULT, now)

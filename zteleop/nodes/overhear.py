@@ -20,7 +20,8 @@ class Overhearing:
     """Tells the judge what is said, in the watchdog's own time: nothing here wakes it."""
 
     def __init__(self, node: Node, settings: DriveSettings, judge: Judge, stop_file: StopFile) -> None:
-        self._judge, self._stop_file = judge, stop_file
+        self._judge = judge
+        self._stop_file = stop_file
         self._commands = [
             node.subscription(f"{topic}/{source}", TOPICS[topic].types, depth=DEPTH, complain=False)
             for source in settings.known_sources

@@ -8,14 +8,13 @@ from typing import Literal
 from zteleop.bus.lane.call import Call
 from zteleop.bus.lane.wire import Answered
 from zteleop.bus.node import Node
-from zteleop.bus.publisher import Publisher
-from zteleop.bus.topics import TOPICS
 from zteleop.control.evidence import STANDS
 from zteleop.control.hold import HOLDS
 from zteleop.control.proof import NEVER
 from zteleop.control.stop import MERGED, is_persons, whose
 from zteleop.machine.ids import new_id
 from zteleop.messages import Confirmed, DriveStatus, Stop
+from zteleop.nodes.stop_ways import Ways
 
 ACKNOWLEDGED_WITHIN = 2.0
 REPEAT = 3.0
@@ -30,13 +29,13 @@ class Stopping:
     """One stop or one release at a time, said 20 times a second until `drive_status` shows it."""
 
     def __init__(self, node: Node | None, by: str, robot: str = "", lane: Call | None = None) -> None:
-        self.robot, self._by, self._lane = robot, _sayable(by), lane
-        self._publisher: Publisher[Stop] | None = None
-        self._matched = False
+        self.robot = robot
+        self._by = _sayable(by)
+        self._ways = Ways(lane)
         if node:
             self.join(node)
         self._asked: list[Stop] = []
-        self._since = self._due = NEVER
+        self._since = NEVER
         self._before: frozenset[int] | None = None
         """The stops that were in force when it was asked, as far as anybody has seen."""
         self._seen: DriveStatus | None = None
@@ -53,9 +52,8 @@ class Stopping:
 
     def join(self, node: Node) -> None:
         """Say on the bus as well what has only been said on the lane so far."""
-        self._publisher = node.publisher(f"/{self.robot}/stop" if self.robot else "stop", Stop)
+        self._ways.join(node, self.robot)
         self.robot = self.robot or node.robot or ""
-        self._due = NEVER
 
     @property
     def unanswered(self) -> bool:
@@ -95,7 +93,8 @@ class Stopping:
 
     def heed(self, status: DriveStatus | None, now: float) -> bool:
         """Take in a new status, if there is one, and go on asking; True when nothing is asked any more."""
-        self._seen, self._since_then = status or self._seen, status or self._since_then
+        self._seen = status or self._seen
+        self._since_then = status or self._since_then
         if status and self._before is None:  # where none was seen at the press, the first may be older
             self._before = _ids(status.stops)
         if status and self._engages and self._shown:
@@ -104,8 +103,8 @@ class Stopping:
             self._go_on(status, now)
         elif self.unanswered and status and self._shows(status):
             self._hear(status, now)
-        if (self.state == "pending" or self.repeats(now)) and self._is_due(now):
-            self._say(now)
+        if (self.state == "pending" or self.repeats(now)) and self._ways.is_due(now):
+            self._ways.say(self.robot, self._asked, now)
         return self.state != "pending"
 
     def hear_lane(self, answer: Answered, now: float) -> None:
@@ -139,25 +138,14 @@ class Stopping:
 
     def _ask(self, said: list[Stop], now: float) -> None:
         self._before = _ids(self._seen.stops) if self._seen else None
-        self.state, self._asked, self._since = "pending", said, now
-        self._since_then, self._heard, self._shown, self._is_over = None, NEVER, False, False
-        self._say(now)
-
-    @property
-    def _is_matched(self) -> bool:
-        return self._publisher is not None and self._publisher.matched
-
-    def _is_due(self, now: float) -> bool:
-        """At the first listener at once: what was said before went nowhere."""
-        return now >= self._due or (self._is_matched and not self._matched)
-
-    def _say(self, now: float) -> None:
-        self._matched, self._due = self._is_matched, now + TOPICS["stop"].every
-        for said in self._asked:
-            if self._lane:
-                self._lane.say(self.robot, said)
-            if self._publisher:
-                self._publisher.publish(said)
+        self._asked = said
+        self._since = now
+        self._since_then = None
+        self._heard = NEVER
+        self._shown = False
+        self._is_over = False
+        self.state = "pending"
+        self._ways.say(self.robot, said, now)
 
     def _go_on(self, status: DriveStatus | None, now: float) -> None:
         if status and self._engages and self._shows(status):
@@ -169,7 +157,8 @@ class Stopping:
 
     def _hear(self, status: DriveStatus, now: float) -> None:
         """Say that it is stopped, once the chip shows it and the disk has it, or that they do not."""
-        self._heard, self._shown = now if self._heard == NEVER else self._heard, True
+        self._heard = now if self._heard == NEVER else self._heard
+        self._shown = True
         settled = now - self._heard >= SETTLED
         if status.confirmed and (settled or not status.unkept):
             self._end("done", self._stands(status.confirmed, status.unkept, now), now)
@@ -227,7 +216,9 @@ class Stopping:
         return f"within {max(1.0, (now - self._since) * 1000):.0f} ms"
 
     def _end(self, state: Literal["done", "failed"], words: str, now: float) -> None:
-        self.state, self.words, self.ended = state, words, now
+        self.state = state
+        self.words = words
+        self.ended = now
 
 
 def person() -> str:

@@ -1,7 +1,6 @@
 """From an input device to commands: what the stick asks for, at each act and 20 times a second."""
 
 from collections.abc import Callable
-from typing import NamedTuple
 
 from zteleop.bus import clock
 from zteleop.bus.lane.call import Call
@@ -10,9 +9,10 @@ from zteleop.bus.topics import TOPICS
 from zteleop.control.stick import Stick, neutral_pwm, to_pwm, to_twist
 from zteleop.errors import BusError, ConfigError
 from zteleop.inputs import Input, Wish
-from zteleop.messages import DriveStatus, Header, Odometry, Pwm, Twist, TwistStamped, Vehicle
+from zteleop.messages import Header, Pwm, Twist, TwistStamped, Vehicle
 from zteleop.nodes.sight import Sight
 from zteleop.nodes.stop_request import Stopping, person
+from zteleop.screen.view import View
 
 PERIOD = TOPICS["cmd_vel"].every
 NEUTRALS = 3
@@ -21,23 +21,6 @@ LATE = 0.5
 NEWS = 5.0
 """s that the answer to a stop or a release is shown."""
 SHOW_AFTER = 0.004  # drawing at once would hold up what was just said on its way out
-
-
-class View(NamedTuple):
-    """What there is to show the operator."""
-
-    now: float
-    vehicle: Vehicle
-    stick: Stick
-    command: Twist | Pwm | None
-    status: DriveStatus | None
-    """None when no actuator is heard"""
-    ours: bool
-    """the robot obeys this device"""
-    odom: Odometry | None
-    note: str
-    alarm: bool
-    """the note says that nobody acknowledged a stop"""
 
 
 class Teleop:
@@ -52,7 +35,10 @@ class Teleop:
         show: Callable[[View], None],
         lane: Call | None = None,
     ) -> None:
-        self._node, self._device, self._vehicle, self._show = node, device, vehicle, show
+        self._node = node
+        self._device = device
+        self._vehicle = vehicle
+        self._show = show
         self._sight = Sight(node)
         self._twists = node.publisher("cmd_vel", TwistStamped, source=source, wait=False)
         self._pwms = node.publisher("pwm", Pwm, source=source, wait=False)

@@ -10,15 +10,9 @@ from zteleop.bus.lane.ear import Ear, Heard
 from zteleop.bus.lane.wire import Answered
 from zteleop.bus.node import Node
 from zteleop.bus.topics import TOPICS
-from zteleop.control.deadlines import (
-    ACTUATOR_SILENCE,
-    ACTUATOR_START,
-    GRACE,
-    LATE_STEP,
-    LONGEST_START,
-    STEP_EVERY,
-)
+from zteleop.control.deadlines import GRACE, STEP_EVERY
 from zteleop.control.judge import Judge
+from zteleop.control.patience import Patience
 from zteleop.control.settings import DriveSettings
 from zteleop.control.standing import Standing
 from zteleop.drivers import PulseDriver
@@ -34,10 +28,6 @@ from zteleop.nodes.hand import Hand
 from zteleop.nodes.overhear import Overhearing
 
 BEAT_EVERY = LOOK_EVERY = 0.05
-FORGIVE_EVERY = 2.0
-"""s; a watchdog that is late all the time would otherwise hear no silence at all"""
-PER_LOOK, AT_MOST = 2, 1.0
-"""times what a look took, and s, that the actuator may be silent in addition: it waits for the same bus"""
 _LONGEST = 200
 """characters of a reason in an answer"""
 ENDS_WITHIN = 0.25
@@ -58,19 +48,20 @@ class Watchdog:
         recorder: Recorder | None = None,
         lane: Ear | None = None,
     ) -> None:
-        self._node, self._child, self._stop_file = node, child, stop_file
-        self._recorder, self._lane = recorder, lane
+        self._node = node
+        self._child = child
+        self._stop_file = stop_file
+        self._recorder = recorder
+        self._lane = lane
         self._judge = Judge(settings, chip.tick_us, clock.now())
         self._hand = Hand(chip, enable, self._judge)
         self._ears = Overhearing(node, settings, self._judge, stop_file)
         self._statuses = node.publisher("watchdog", WatchdogStatus)
-        self._ticked, self._woke = clock.now(), float("-inf")
+        self._patience = Patience(clock.now())
         self._restart_at: float | None = None
-        self._start_patience = ACTUATOR_START
+        """When the next actuator starts, while there is none."""
         self._standing: Standing | None = None
         """Of the actuator that is gone, where it was only late."""
-        self._obeyed: float | None = None
-        """Since when the actuator rests for a stop."""
         self._why = "the actuator starts"
         self._exit_code: int | None = None
 
@@ -98,7 +89,6 @@ class Watchdog:
     def _start(self) -> None:
         self._restart_at = None
         self._ears.forget_beats()
-        self._obeyed = None
         self._child.start(clock.now(), self._standing)
         assert self._child.link
         self._node.watch(self._child.link.fileno(), self._hear_actuator)
@@ -106,20 +96,20 @@ class Watchdog:
     def _hear_actuator(self) -> None:
         was_ready = self._child.ready
         try:
-            self._child.hear()
+            self._child.hear(clock.now())
         except EOFError:
             self._rest()  # before its process is even waited for
             self._fell("it ended", GRACE)
             return
         if report := self._child.newest:
             self._judge.hear_report(report.standing)
-            self._obeyed = (self._obeyed or clock.now()) if report.stopped else None
             if not was_ready:
                 self._greet()
 
     def _greet(self) -> None:
         """Let the outputs through, and tell a new actuator of stops that may be on no disk."""
-        self._why, self._start_patience = "the actuator steps", ACTUATOR_START
+        self._why = "the actuator steps"
+        self._patience.restore()
         self._hand.let_through()
         for stop in self._ears.stops:
             self._tell_stop(stop)
@@ -128,34 +118,16 @@ class Watchdog:
     def _tick(self) -> None:
         """Take in what the bus says, and notice silence."""
         now = clock.now()
-        if now - self._ticked > LATE_STEP and now - self._woke > FORGIVE_EVERY:
-            self._woke = now
-        self._ticked = now
+        self._patience.tick(now)
         for heard in self._lane.take(now) if self._lane else ():
             self._obey(heard, now)
         if ignored := self._ears.listen(now):
             self._engage(ignored)
         if self._restart_at is not None:
             self._keep_at_rest(now)
-        elif self._silent(now):
-            self._fell(self._lose_patience(now), 0.0, late=True)
-
-    def _silent(self, now: float) -> bool:
-        """Say whether the actuator has been silent for too long while the watchdog was there to hear it.
-
-        One that waits for a slow bus is not dead, and the looks tell how slow the bus is.
-        """
-        limit = self._start_patience
-        if self._child.ready:
-            limit = ACTUATOR_SILENCE + min(PER_LOOK * self._hand.took, AT_MOST)
-        return min(self._child.silence(now), now - self._woke) > limit
-
-    def _lose_patience(self, now: float) -> str:
-        """Return what an actuator is killed for; one that never stepped leaves the next more time."""
-        if self._child.ready:
-            return f"it was silent for {self._child.silence(now):.2f} s"
-        had, self._start_patience = self._start_patience, min(2 * self._start_patience, LONGEST_START)
-        return f"it did not step within {had:g} s of its start, and the next has {self._start_patience:g} s"
+        elif self._patience.is_over(self._child.silence(now), self._hand.took, self._child.ready, now):
+            why = self._patience.lose(self._child.silence(now), self._child.ready)
+            self._fell(why, 0.0, late=True)
 
     def _beat(self) -> None:
         report = self._child.newest
@@ -211,7 +183,8 @@ class Watchdog:
             return "cut"
         if self._restart_at is not None:
             return "read" if self._hand.at_rest else ""
-        return "read" if self._obeyed and self._hand.seen > self._obeyed and not self._judge.moving else ""
+        obeyed = self._child.stopped_since
+        return "read" if obeyed and self._hand.seen > obeyed and not self._judge.moving else ""
 
     def _tell_stop(self, stop: Stop) -> None:
         if self._child.link:

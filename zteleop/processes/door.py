@@ -13,7 +13,8 @@ from zteleop.bus import clock
 from zteleop.bus.door.host import Host
 from zteleop.bus.loop import Loop
 from zteleop.bus.settings import BusSettings
-from zteleop.bus.zenoh_session import ZenohSession, open_zenoh
+from zteleop.bus.zenoh_open import open_zenoh
+from zteleop.bus.zenoh_session import ZenohSession
 from zteleop.errors import ConfigError, DeviceError
 from zteleop.machine import limits, realtime, signals, stderr
 from zteleop.machine.door import ALIVE, ALIVE_EVERY

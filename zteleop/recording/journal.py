@@ -38,7 +38,9 @@ class Journal:
     """Keeps acts, or every command; never raises, never waits, and warns once when it cannot write."""
 
     def __init__(self, folder: Path, detail: Detail, warn: Callable[[str], object] = lambda _: None) -> None:
-        self._all, self._warn, self._warned = detail == "all", warn, False
+        self._all = detail == "all"
+        self._warn = warn
+        self._warned = False
         self._accepted: dict[int | None, Accepted] = {}
         self._refused: dict[str, Refused] = {}
         self._ration = Ration()
@@ -121,7 +123,9 @@ class Ration:
     """So many lines a second; what exceeds them is counted."""
 
     def __init__(self) -> None:
-        self._since, self._used, self.more = float("-inf"), 0, 0
+        self._since = float("-inf")
+        self._used = 0
+        self.more = 0
 
     def spend(self, now: float) -> bool:
         """Say whether one more line fits."""

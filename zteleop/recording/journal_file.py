@@ -53,11 +53,17 @@ class JournalFile:
 
     def __init__(self, path: Path) -> None:
         self.trouble = ""
-        self._path, self._size, self._synced = path, 0, clock.now()
+        self._path = path
+        self._size = 0
+        self._synced = clock.now()
         self._file: BinaryIO | None = None
         self._waiting: deque[Entry] = deque()
-        self._full = self._failed = self._told = 0  # each is counted by one thread alone: no lock
-        self._news, self._end = threading.Event(), threading.Event()
+        # each is counted by one thread alone: no lock
+        self._full = 0
+        self._failed = 0
+        self._told = 0
+        self._news = threading.Event()
+        self._end = threading.Event()
         self._unsynced = False
         self._try(self._open)  # here, so that a wrong folder is said at the start
         self._thread = threading.Thread(target=self._run, name="journal", daemon=True)

@@ -61,7 +61,8 @@ class Pool:
     """Topics that share an amount of memory: who uses most of it makes room."""
 
     def __init__(self, limit: int) -> None:
-        self._limit, self.size = limit, 0
+        self._limit = limit
+        self.size = 0
         self.lanes: dict[str, Lane] = {}
 
     def add(self, raw: Raw) -> None:
@@ -96,9 +97,11 @@ class Ring:
 
     def __init__(self, known: Collection[str]) -> None:
         self._known_paths = {path: number for number, path in enumerate(known)}
-        self._known, self._others = Pool(KNOWN_BYTES), Pool(OTHER_BYTES)
+        self._known = Pool(KNOWN_BYTES)
+        self._others = Pool(OTHER_BYTES)
         self._room = TOPICS_AT_MOST - len(self._known_paths)
-        self._swept = self._newest = float("-inf")
+        self._swept = float("-inf")
+        self._newest = float("-inf")
         self._elsewhere = 0
 
     @property

@@ -3,9 +3,9 @@
 from collections.abc import Sequence
 from typing import Literal, NamedTuple
 
-from zteleop.control.stick import Speeds, Stick
+from zteleop.control.stick import Speeds
 from zteleop.inputs.levers import Steps
-from zteleop.messages import DriveStatus, Odometry, Pwm, Twist, Vehicle
+from zteleop.screen.view import View
 from zteleop.terminal.cells import Span
 
 WIDE = 62
@@ -15,27 +15,15 @@ TABLE = 44
 
 
 class Dashboard(NamedTuple):
-    """Everything shown; what was not heard is None."""
+    """Everything shown."""
 
     robot: str
     drive: Literal["step", "hold"]
     speeds: Speeds
-    vehicle: Vehicle | None = None
-    stick: Stick = Stick()
-    pwm: Pwm | None = None
-    """The ticks wanted now; None is neutral."""
-    twist: Twist | None = None
-    """The twist wanted now; None is rest."""
-    status: DriveStatus | None = None
-    ours: bool = False
-    """We are the operator obeyed."""
-    odom: Odometry | None = None
+    seen: View = View()
     trail: Sequence[tuple[float, float]] = ()
     idle_left: float | None = None
-    """s until neutral for want of a key."""
-    note: str = ""
-    alarm: bool = False
-    """The note says what the operator must know now."""
+    """s until neutral for want of a key; None when it is neutral already"""
     steps: Steps = Steps()
 
 

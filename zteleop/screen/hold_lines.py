@@ -5,12 +5,12 @@ from zteleop.screen.dashboard import TABLE, Dashboard, Line, line
 
 
 def hold_lines(d: Dashboard, columns: int) -> list[Line]:
-    turns = d.vehicle is None or not d.vehicle.steers
-    applied = d.status.applied if d.status else None
+    turns = d.seen.vehicle is None or not d.seen.vehicle.steers
+    applied = d.seen.status.applied if d.seen.status else None
     full = f"{d.speeds.forward:.2f}", f"{d.speeds.turn:.2f}" if turns else "full lock"
     if columns < TABLE:
         full = full[0], full[1].removeprefix("full ")
-        wanted = f"{'wanted':<9}{twist_pair(d.twist)}"
+        wanted = f"{'wanted':<9}{twist_pair(d.seen.twist)}"
         got = f"{'applied':<9}{twist_pair(applied)}"
         return [
             line(1, wanted),
@@ -20,7 +20,7 @@ def hold_lines(d: Dashboard, columns: int) -> list[Line]:
     turn_keys = "rad/s  i/k" if turns else ""
     return [
         line(8, f"{'':<14}{'forward':<15}turning", "dim"),
-        line(1, row("wanted", d.twist)),
+        line(1, row("wanted", d.seen.twist)),
         line(3, row("applied", applied)),
         line(4, f"{'full stick':<14}{full[0]:>5} m/s  u/j  {full[1]:>5} {turn_keys}".rstrip()),
     ]

@@ -38,8 +38,8 @@ def footer(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
 
 def note_lines(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
     """Return the note, cut; an alarm is whole, and goes last."""
-    note = printable(d.note, unicode)
-    if d.alarm:
+    note = printable(d.seen.note, unicode)
+    if d.seen.alarm:
         return [line(0, text, "red") for text in wrap(note, columns)[:4]]
     note = cut(note, columns)
     return [line(5 if note else 9, note, "dim")]
@@ -47,8 +47,8 @@ def note_lines(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
 
 def brief(d: Dashboard, unicode: bool) -> list[Span]:
     """Return all that matters on a single line."""
-    note = Span("  " + printable(d.note, unicode), "red" if d.alarm else "dim")
-    return [*state(d, unicode), *([note] if d.alarm else [Span(f"  {values(d)}"), note])]
+    note = Span("  " + printable(d.seen.note, unicode), "red" if d.seen.alarm else "dim")
+    return [*state(d, unicode), *([note] if d.seen.alarm else [Span(f"  {values(d)}"), note])]
 
 
 def heading(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
@@ -67,33 +67,33 @@ def heading(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
 
 
 def state(d: Dashboard, unicode: bool) -> list[Span]:
-    word = d.status.state if d.status else "no actuator"
+    word = d.seen.status.state if d.seen.status else "no actuator"
     return [Span(f"{'●' if unicode else '*'} {word}", COLORS.get(word, "yellow"))]
 
 
 def operator(d: Dashboard, unicode: bool) -> str:
-    if d.status is None:
+    if d.seen.status is None:
         return ""
-    if not d.status.operator:
+    if not d.seen.status.operator:
         return "nobody operates"
-    if d.ours:
+    if d.seen.ours:
         return "you operate"
-    return f"{printable(called(d.status.source, d.status.operator), unicode)} operates"
+    return f"{printable(called(d.seen.status.source, d.seen.status.operator), unicode)} operates"
 
 
 def why(d: Dashboard, unicode: bool) -> str:
-    if d.status is None:
+    if d.seen.status is None:
         robot = printable(d.robot, unicode)
         start = f"start `zteleop actuator --robot {robot}`"
         return f"no actuator heard on robot {robot}; {start}, or, if it moves, cut its power"
-    return printable(d.status.why, unicode)
+    return printable(d.seen.status.why, unicode)
 
 
 def slowed(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
     """Return why the robot may not go as fast as it can, in a line, while that is so."""
-    if d.status is None or not d.status.slowed:
+    if d.seen.status is None or not d.seen.status.slowed:
         return []
-    words = f"at most {d.status.max_speed:.2f} m/s: {printable(d.status.slowed, unicode)}"
+    words = f"at most {d.seen.status.max_speed:.2f} m/s: {printable(d.seen.status.slowed, unicode)}"
     return [line(7, cut(words, columns), "yellow")]
 
 
@@ -101,7 +101,7 @@ def values(d: Dashboard) -> str:
     """Return what is asked for now."""
     if d.drive == "step":
         return ticks_text(d)
-    twist = d.twist or Twist.planar()
+    twist = d.seen.twist or Twist.planar()
     return f"{twist.linear.x:+.2f} m/s {twist.angular.z:+.2f} rad/s"
 
 
@@ -115,13 +115,13 @@ def idle(d: Dashboard, columns: int) -> Line:
 def actuator_lines(d: Dashboard, unicode: bool) -> list[Line]:
     """Return what the actuator tells its chip, and where the robot is."""
     lines = []
-    if d.status is not None and d.status.pulses:
-        told = ", ".join(f"{printable(p.name, unicode)} {p.duty_ticks}" for p in d.status.pulses[:4])
+    if d.seen.status is not None and d.seen.status.pulses:
+        told = ", ".join(f"{printable(p.name, unicode)} {p.duty_ticks}" for p in d.seen.status.pulses[:4])
         lines.append(line(7, f"{'chip':<10}{told}"))
-    if d.odom is not None:
-        moving = d.odom.twist.twist
+    if d.seen.odom is not None:
+        moving = d.seen.odom.twist.twist
         lines.append(line(7, f"{'moving':<10}{moving.linear.x:+.2f} m/s  {moving.angular.z:+.2f} rad/s"))
-    if found := pose(d.odom):
+    if found := pose(d.seen.odom):
         x, y, heading = found
         degree = "°" if unicode else " deg"
         lines.append(line(8, f"{'place':<10}x {x:.2f}  y {y:.2f} m  {degrees(heading):.0f}{degree}"))
@@ -130,17 +130,17 @@ def actuator_lines(d: Dashboard, unicode: bool) -> list[Line]:
 
 def steering_angle(d: Dashboard) -> float:
     """Return where the actuator points the front wheels, in rad, positive to the left."""
-    pulses = d.status.pulses if d.status else []
+    pulses = d.seen.status.pulses if d.seen.status else []
     fraction = next((pulse.fraction for pulse in pulses if pulse.name == "steering"), 0.0)
-    if d.vehicle is None or not isfinite(fraction):
+    if d.seen.vehicle is None or not isfinite(fraction):
         return 0.0
-    return max(-1.0, min(1.0, fraction)) * d.vehicle.max_steering_angle
+    return max(-1.0, min(1.0, fraction)) * d.seen.vehicle.max_steering_angle
 
 
 def key_lines(d: Dashboard, columns: int) -> list[Line]:
-    stopped = d.status is not None and bool(d.status.stops)
+    stopped = d.seen.status is not None and bool(d.seen.status.stops)
     keys: Iterable[tuple[str, str]] = [STOP, *([RELEASE] if stopped else []), *KEYS[d.drive]]
-    if d.vehicle is not None and d.vehicle.steers:
+    if d.seen.vehicle is not None and d.seen.vehicle.steers:
         keys = [(key, does) for key, does in keys if key != "i/k"]
     lines: list[list[Span]] = [[]]
     for key, does in keys:

@@ -22,7 +22,7 @@ def render(dashboard: Dashboard, columns: int, rows: int, *, unicode: bool, colo
     body, bottom = choose(readings(dashboard, columns, unicode), footer(dashboard, columns, unicode), rows)
     spare = rows - len(body) - len(bottom)
     middle = [*body, *[[Span("")]] * spare]
-    if dashboard.odom is not None or dashboard.status is not None:
+    if dashboard.seen.odom is not None or dashboard.seen.status is not None:
         middle = with_picture(dashboard, middle, len(body), columns, unicode)
     return [paint(fit(spans, columns), color) for spans in [*middle, *bottom]]
 
@@ -49,7 +49,7 @@ def with_picture(
     across = columns - LEFT - 2 if beside else columns
     if rows < LEAST_ROWS or across < LEAST_COLUMNS:
         return middle
-    picture = draw(d.odom, d.trail, steering_angle(d), d.vehicle, across, rows, unicode)
+    picture = draw(d.seen.odom, d.trail, steering_angle(d), d.seen.vehicle, across, rows, unicode)
     margin = LEFT + 2 if beside else 0
     shown = [[*pad(middle[top + i], margin), Span(line)] for i, line in enumerate(picture)]
     return [*middle[:top], *shown, *middle[top + rows :]]

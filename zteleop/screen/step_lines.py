@@ -23,21 +23,21 @@ def step_lines(d: Dashboard, columns: int) -> list[Line]:
 
 def ticks_text(d: Dashboard) -> str:
     """Return [steering, throttle]; neutral while nobody holds a lever."""
-    if d.pwm is not None:
-        return f"[{d.pwm.steering_ticks}, {d.pwm.throttle_ticks}]"
-    found = [channel(d.vehicle, axis) for axis in ("steering", "throttle")]
+    if d.seen.pwm is not None:
+        return f"[{d.seen.pwm.steering_ticks}, {d.seen.pwm.throttle_ticks}]"
+    found = [channel(d.seen.vehicle, axis) for axis in ("steering", "throttle")]
     return f"[{', '.join(str(c.neutral_ticks) if c else '-' for c in found)}]"
 
 
 def bar_line(d: Dashboard, axis: Axis, columns: int) -> Line:
-    found = channel(d.vehicle, axis)
+    found = channel(d.seen.vehicle, axis)
     room = (columns - 13 - (15 if columns >= 34 else 0)) // 2
     if found is None:
         return line(3, f"{axis:<10}{bar(0, 1, max(1, min(6, room)), '<>')}")
     lever = Lever(found, d.steps.of(axis))
     ticks = found.neutral_ticks
-    if d.pwm is not None:
-        ticks = d.pwm.steering_ticks if axis == "steering" else d.pwm.throttle_ticks
+    if d.seen.pwm is not None:
+        ticks = d.seen.pwm.steering_ticks if axis == "steering" else d.seen.pwm.throttle_ticks
     count, most = lever.count(ticks), max(lever.most(1), lever.most(-1), 1)
     cells = max(1, min(most, room, THROTTLE_CELLS if axis == "throttle" else most))
     # steering grows to the right for right, which is the negative side of the axis

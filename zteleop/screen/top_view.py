@@ -34,7 +34,9 @@ class Canvas:
     """Dots, two by four to a cell; without braille every line leaves the character nearest its slope."""
 
     def __init__(self, columns: int, rows: int, unicode: bool) -> None:
-        self.columns, self.rows, self.unicode = columns, rows, unicode
+        self.columns = columns
+        self.rows = rows
+        self.unicode = unicode
         self._bits = [[0] * columns for _ in range(rows)]
         self._marks = [[" "] * columns for _ in range(rows)]
 

@@ -28,8 +28,11 @@ class Body(ABC):
     """Pose of base_link in the odom frame (m, rad) and its velocity (m/s, rad/s)."""
 
     def __init__(self) -> None:
-        self.x = self.y = self.heading = 0.0
-        self.speed = self.yaw_rate = 0.0
+        self.x = 0.0
+        self.y = 0.0
+        self.heading = 0.0
+        self.speed = 0.0
+        self.yaw_rate = 0.0
         self.distance = 0.0
         """m rolled since the start, back and forth."""
 

@@ -22,8 +22,10 @@ class Car(Body):
         self, mixer: Ackermann, servos: Mapping[str, Servo], settings: CarSettings | None = None
     ) -> None:
         super().__init__()
-        self._mixer, self._settings = mixer, settings or CarSettings()
-        self._steering, self._throttle = servos["steering"], servos["throttle"]
+        self._mixer = mixer
+        self._settings = settings or CarSettings()
+        self._steering = servos["steering"]
+        self._throttle = servos["throttle"]
         self.steering_angle = 0.0
         """rad of the front wheels, positive to the left."""
 

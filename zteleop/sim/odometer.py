@@ -14,7 +14,8 @@ class Odometer:
     """Counts from 0, 0, 0; without noise it errs only where a body is pushed aside."""
 
     def __init__(self, noise: Noise = NONE, chance: Random | None = None) -> None:
-        self.noise, self._chance = noise, chance or Random(0)
+        self.noise = noise
+        self._chance = chance or Random(0)
         self.distance = 0.0
         """m rolled since the start, back and forth."""
         self.reset()

@@ -13,7 +13,8 @@ class Tank(Body):
         self, mixer: Differential, servos: Mapping[str, Servo], settings: EscSettings | None = None
     ) -> None:
         super().__init__()
-        self._mixer, self._settings = mixer, settings or EscSettings()
+        self._mixer = mixer
+        self._settings = settings or EscSettings()
         self._servos = servos["left"], servos["right"]
         self.wheel_speeds = (0.0, 0.0)
         """m/s, left and right."""

@@ -38,7 +38,9 @@ class Terminal:
         self.resumed = 0
         """How often the process was stopped and went on."""
         self._fd = -1
-        self._entered = self._continued = self._resized = False
+        self._entered = False
+        self._continued = False
+        self._resized = False
         self._saved: list[Any] = []
         self._handlers: dict[int, Any] = {}
         self._shown: list[str] = []

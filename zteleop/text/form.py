@@ -30,7 +30,8 @@ class Form:
         self.kinds: Mapping[str, type[Message]] = MESSAGES
         """the types that are known, which name those of arrays"""
         self._make = {"yaml": self._yaml, "csv": self._csv, "json": self._json}[name]
-        self._style, self._header = style or Style(), header
+        self._style = style or Style()
+        self._header = header
         self._columns: list[str] = []
 
     def prepare(self) -> None:

@@ -4,7 +4,7 @@ import signal
 import sys
 
 from zteleop.bus.settings import BusSettings
-from zteleop.bus.zenoh_session import open_zenoh
+from zteleop.bus.zenoh_open import open_zenoh
 
 if __name__ == "__main__":
     with open_zenoh(BusSettings(mode="router", listen=[sys.argv[1]], multicast=False)):

@@ -9,7 +9,7 @@ import time
 import zenoh
 
 from zteleop.bus.settings import BusSettings
-from zteleop.bus.zenoh_session import open_zenoh
+from zteleop.bus.zenoh_open import open_zenoh
 
 KEY = "robot/bench/camera/image/compressed"
 PICTURE = bytes(1400)

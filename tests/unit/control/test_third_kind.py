@@ -18,6 +18,7 @@ from zteleop.control.stick import Speeds, Stick, to_twist
 from zteleop.messages import Pwm, Twist
 from zteleop.screen.dashboard import Dashboard
 from zteleop.screen.render import render
+from zteleop.screen.view import View
 from zteleop.sim.body import Body, Pulses
 
 LOCK = 1.0
@@ -81,7 +82,7 @@ def test_it_is_told_and_shown(settings: DriveSettings) -> None:
     assert {channel.name: channel.channel for channel in vehicle.channels} == {"front": 4, "fork": 5}
     step = robot.hold(Twist.planar(1.0), 0.5)
     said = status(robot.drive, step, robot.chip(step))
-    board = Dashboard("trike", "hold", Speeds(), vehicle, Stick(0.5, 0.0, True), status=said)
+    board = Dashboard("trike", "hold", Speeds(), View(vehicle=vehicle, status=said))
     page = "\n".join(render(board, 80, 24, unicode=False, color=False))
     assert "applied" in page
     assert "+1.00 m/s" in page

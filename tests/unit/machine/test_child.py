@@ -15,7 +15,8 @@ import pytest
 from zteleop.control.standing import Standing
 from zteleop.machine import child as module
 from zteleop.machine import link
-from zteleop.machine.child import DIES_WITHIN, FIRST_PAUSE, LONGEST_PAUSE, STEADY, Child
+from zteleop.machine.backoff import FIRST_PAUSE, LONGEST_PAUSE, STEADY
+from zteleop.machine.child import DIES_WITHIN, Child
 from zteleop.machine.link import Report
 from zteleop.processes.actuator import orders
 
@@ -121,36 +122,56 @@ def test_one_that_dies_before_it_reads_its_settings_is_no_error(
     child = Child(["zteleop"], b"settings")
     child.start(100.0)
     with pytest.raises(EOFError):
-        child.hear()
+        child.hear(101.0)
     child.end(0.0)
 
 
-def test_its_silence_counts_from_the_start_until_it_reports(
-    nursery: Nursery, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    sockets, real = [], link.pair
+@pytest.fixture
+def actuators(nursery: Nursery, monkeypatch: pytest.MonkeyPatch) -> Iterator[list[Any]]:
+    """Return the other ends of the links, of one child after the other."""
+    ends: list[Any] = []
+    real = link.pair
 
     def pair() -> Any:
         dog, theirs = real()
-        sockets.append(link.adopt(theirs.dup().detach()))
+        ends.append(link.adopt(theirs.dup().detach()))
         return dog, theirs
 
     monkeypatch.setattr(link, "pair", pair)
+    yield ends
+    for end in ends:
+        end.close()
+
+
+def test_its_silence_counts_from_the_start_until_it_reports(actuators: list[Any]) -> None:
     child = Child(["zteleop"], b"")
     child.start(100.0)
-    child.hear()
+    child.hear(101.0)
     assert (child.ready, child.silence(101.5)) == (False, 1.5)
     for stepped in (101.0, 101.6):
-        sockets[0].report(Report(stepped, STANDING))
-    child.hear()
+        actuators[0].report(Report(stepped, STANDING))
+    child.hear(101.0)
     assert (child.ready, child.newest) == (True, Report(101.6, STANDING))
-    child.hear()
+    child.hear(101.0)
     assert child.silence(102.0) == pytest.approx(0.4)
     child.end(0.0)
     child.start(103.0)
     assert (child.ready, child.starts) == (False, 2)
-    for socket in sockets:
-        socket.close()
+    child.end(0.0)
+
+
+def test_it_is_stopped_since_it_first_said_so(actuators: list[Any]) -> None:
+    child = Child(["zteleop"], b"")
+    child.start(100.0)
+    since = []
+    for now, stopped in ((101.0, False), (102.0, True), (103.0, True), (104.0, False), (105.0, True)):
+        actuators[0].report(Report(now, STANDING, stopped))
+        child.hear(now)
+        since.append(child.stopped_since)
+    assert since == [None, 102.0, 102.0, None, 105.0]
+    child.end(0.0)
+    child.start(106.0)
+    assert child.stopped_since is None
     child.end(0.0)
 
 
@@ -216,9 +237,9 @@ def test_the_link_ends_with_the_child_although_a_sibling_lives_on() -> None:
             assert one.link
             assert select([one.link.fileno()], [], [], 2.0)[0], "the end of the link never came"
             with pytest.raises(EOFError):
-                one.hear()
+                one.hear(101.0)
             assert time.monotonic() - began < 1.0
-            two.hear()
+            two.hear(101.0)
             assert (two.gone, stranger.poll()) == (False, None)
         finally:
             stranger.kill()

@@ -12,7 +12,10 @@ import pytest
 
 from zteleop.control.deadlines import DOOR_SILENCE, DOOR_START, LATE_STEP
 from zteleop.machine import door as module
-from zteleop.machine.door import FIRST_PAUSE, LARGEST, STEADY, Door
+from zteleop.machine import vigil
+from zteleop.machine.backoff import FIRST_PAUSE, STEADY
+from zteleop.machine.door import Door
+from zteleop.machine.vigil import LARGEST, WEIGH_EVERY
 
 LISTENS = """
 import os, sys
@@ -103,7 +106,7 @@ def test_of_those_that_break_in_a_row_each_comes_later(opened: House) -> None:
 def test_one_that_was_long_open_does_not_count_as_in_a_row(
     opened: House, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(module, "DOOR_SILENCE", float("inf"))
+    monkeypatch.setattr(vigil, "DOOR_SILENCE", float("inf"))
     for start in (2, 3):
         opened.tend(STEADY + 1)
         opened.kill()
@@ -126,18 +129,10 @@ def test_whoever_was_late_himself_listens_before_he_judges(opened: House) -> Non
 
 
 def test_one_that_grows_beyond_its_limit_is_ended(opened: House, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(opened.door, "_weigh", lambda: LARGEST)
-    opened.tend(STEP)
-    assert opened.words == []
-    monkeypatch.setattr(opened.door, "_weigh", lambda: LARGEST + 2**20)
-    opened.door._weighed = float("-inf")
-    opened.tend(STEP)
+    monkeypatch.setattr(vigil, "DOOR_SILENCE", float("inf"))
+    monkeypatch.setattr(vigil, "weigh", lambda pid: LARGEST + 2**20)
+    opened.tend(WEIGH_EVERY + STEP)
     assert opened.words[0].startswith("the door to the bus is shut: it had grown to 193 MB, of 192; another")
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
-def test_its_weight_is_what_it_holds_by_itself(opened: House) -> None:
-    assert 2**20 < opened.door._weigh() < 2**26
 
 
 def test_one_that_never_opened_and_said_why_is_not_followed(tmp_path: Path) -> None:
@@ -185,7 +180,7 @@ def test_one_that_the_system_cannot_start_is_tried_ever_later_and_ends_nobody(
     def full(*_: object, **__: object) -> None:
         raise BlockingIOError(errno.EAGAIN, "Resource temporarily unavailable")
 
-    monkeypatch.setattr(module, "DOOR_SILENCE", float("inf"))
+    monkeypatch.setattr(vigil, "DOOR_SILENCE", float("inf"))
     opened.tend(STEADY + 1)
     with monkeypatch.context() as without:
         without.setattr(module.subprocess, "Popen", full)

@@ -6,12 +6,13 @@ from unit.bus.fakes import Clock
 from unit.nodes.fakes import Chip
 
 from zteleop.control.drive import Drive
+from zteleop.control.pace import QUICK_WRITES, SLOW, SLOW_WRITES
 from zteleop.control.proof import Prover
 from zteleop.control.settings import DriveSettings
 from zteleop.errors import DeviceError
 from zteleop.messages import Beat, Pwm, Stop
 from zteleop.nodes import output as module
-from zteleop.nodes.output import FAILED_STEPS, QUICK_WRITES, REPAIR_EVERY, SLOW, SLOW_WRITES, Output
+from zteleop.nodes.output import FAILED_STEPS, REPAIR_EVERY, Output
 
 NEUTRAL = {0: 1509.6, 1: 1530.0}
 PULSES = {0: 1509.6, 1: 1600.0}

@@ -12,7 +12,8 @@ from zteleop.errors import BusError, ConfigError
 from zteleop.inputs import Wish
 from zteleop.messages import DriveStatus, Log, Odometry, Pwm, Stop, Twist, Vehicle
 from zteleop.nodes.stop_request import ACKNOWLEDGED_WITHIN, REPEAT
-from zteleop.nodes.teleop import NEWS, PERIOD, SHOW_AFTER, Teleop, View
+from zteleop.nodes.teleop import NEWS, PERIOD, SHOW_AFTER, Teleop
+from zteleop.screen.view import View
 
 CAR = to_vehicle(DriveSettings(), 4.08)
 SLOW_CAR = to_vehicle(DriveSettings(), 4.1)

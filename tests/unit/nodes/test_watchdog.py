@@ -11,6 +11,7 @@ from zteleop.bus.lane.wire import Answered, Asked
 from zteleop.bus.subscription import Received
 from zteleop.bus.topics import TOPICS
 from zteleop.control.deadlines import ACTUATOR_SILENCE, ACTUATOR_START, BLIND, GRACE, LATE_STEP, STEP_EVERY
+from zteleop.control.patience import AT_MOST
 from zteleop.control.proof import Prover
 from zteleop.control.settings import DriveSettings
 from zteleop.control.standing import Standing
@@ -20,7 +21,7 @@ from zteleop.machine.link import CUT, HEARS, HEARS_NOT, UNWATCHED, Report
 from zteleop.messages import Beat, Message, Pwm, Stop, WatchdogStatus
 from zteleop.nodes import watchdog as module
 from zteleop.nodes.hand import MISSES, YIELD
-from zteleop.nodes.watchdog import AT_MOST, ENDS_WITHIN, LOOK_EVERY, RESTS_WITHIN, Watchdog
+from zteleop.nodes.watchdog import ENDS_WITHIN, LOOK_EVERY, RESTS_WITHIN, Watchdog
 
 NEUTRAL = {0: 1509.6, 1: 1530.0}
 MOVING = {0: 1600.0, 1: 1530.0}
@@ -43,6 +44,7 @@ class Child:
         self.clock, self.hand = clock, hand
         self.starts, self.started = 0, float("-inf")
         self.newest: Report | None = None
+        self.stopped_since: float | None = None
         self.link: SimpleNamespace | None = None
         self.words: list[bytes] = []
         self.stops: list[Stop] = []
@@ -74,15 +76,18 @@ class Child:
     def start(self, now: float, standing: Standing | None = None) -> None:
         self.followed.append(standing)
         self.starts, self.started, self.newest = self.starts + 1, now, None
+        self.stopped_since = None
         self.alive, self.dead = True, False
         self.link = SimpleNamespace(fileno=lambda: FILE, say=self.words.append, stop=self.stops.append)
         self.log.append("start")
 
-    def hear(self) -> None:
+    def hear(self, now: float) -> None:
         if self.dead:
             raise EOFError
         if not self.frozen:
-            self.newest = Report(self.clock.time, self.standing, self.obeys and bool(self.stops))
+            stopped = self.obeys and bool(self.stops)
+            self.newest = Report(now, self.standing, stopped)
+            self.stopped_since = (self.stopped_since or now) if stopped else None
 
     def silence(self, now: float) -> float:
         return now - (self.newest.stepped if self.newest else self.started)

@@ -1,11 +1,12 @@
+from unit.screen.boards import dashboard
+
 from zteleop.control.stick import Speeds
 from zteleop.messages import DriveStatus, Twist, Vehicle
-from zteleop.screen.dashboard import Dashboard
 from zteleop.screen.hold_lines import hold_lines
 
 
 def words(vehicle: Vehicle | None, columns: int = 80, **fields: object) -> list[list[str]]:
-    board = Dashboard("robot", "hold", Speeds(0.2, 1.0), vehicle, **fields)
+    board = dashboard("hold", vehicle, speeds=Speeds(0.2, 1.0), **fields)
     return ["".join(span.text for span in line.spans).split() for line in hold_lines(board, columns)]
 
 
@@ -17,7 +18,7 @@ def driving() -> DriveStatus:
 
 
 def test_wanted_applied_and_what_a_full_stick_means(tank):
-    assert words(tank, twist=Twist.planar(0.3, -0.5), status=driving()) == [
+    assert words(tank, command=Twist.planar(0.3, -0.5), status=driving()) == [
         ["forward", "turning"],
         ["wanted", "+0.30", "m/s", "-0.50", "rad/s"],
         ["applied", "+0.25", "m/s", "+0.40", "rad/s"],
@@ -26,7 +27,7 @@ def test_wanted_applied_and_what_a_full_stick_means(tank):
 
 
 def test_a_narrow_window_has_the_numbers_alone(tank):
-    assert words(tank, 20, twist=Twist.planar(0.3, -0.5)) == [
+    assert words(tank, 20, command=Twist.planar(0.3, -0.5)) == [
         ["wanted", "+0.30", "-0.50"],
         ["applied", "-", "-"],
         ["speeds", "0.20", "1.00"],

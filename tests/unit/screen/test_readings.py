@@ -1,8 +1,7 @@
 import pytest
+from unit.screen.boards import dashboard
 
-from zteleop.control.stick import Speeds
 from zteleop.messages import DriveStatus, Pulse, Twist
-from zteleop.screen.dashboard import Dashboard
 from zteleop.screen.readings import footer, readings, steering_angle
 
 
@@ -31,9 +30,7 @@ def status(**changes) -> DriveStatus:
     ],
 )
 def test_it_says_who_operates(car, changes, ours, words):
-    shown = texts(
-        readings(Dashboard("car", "step", Speeds(), car, status=status(**changes), ours=ours), 80, True)
-    )
+    shown = texts(readings(dashboard("step", car, status=status(**changes), ours=ours), 80, True))
     assert shown[0].endswith(words)
     assert shown[0].startswith("car  step drive")
 
@@ -43,12 +40,12 @@ def test_it_says_who_operates(car, changes, ours, words):
     [("driving", "green"), ("idle", "yellow"), ("link lost", "yellow"), ("stopped", "red"), ("fault", "red")],
 )
 def test_the_state_has_its_colour(car, state, style):
-    top = readings(Dashboard("car", "step", Speeds(), car, status=status(state=state)), 80, True)[0]
+    top = readings(dashboard("step", car, status=status(state=state)), 80, True)[0]
     assert [span.style for span in top.spans if state in span.text] == [style]
 
 
 def test_without_an_actuator_it_says_what_to_do():
-    shown = texts(readings(Dashboard("archangel", "step", Speeds()), 80, True))
+    shown = texts(readings(dashboard("step", robot="archangel"), 80, True))
     words = (
         "no actuator heard on robot archangel; start `zteleop actuator --robot archangel`, or, if it moves"
     )
@@ -57,20 +54,20 @@ def test_without_an_actuator_it_says_what_to_do():
 
 
 def test_a_car_steers_by_curvature_so_turning_speed_is_not_shown(car):
-    board = Dashboard("c", "hold", Speeds(), car)
+    board = dashboard("hold", car)
     assert not any("i/k" in text for text in texts([*readings(board, 80, True), *footer(board, 80, True)]))
 
 
 def test_the_countdown_turns_yellow(car):
     for left, style in ((3.2, ""), (1.9, "yellow")):
-        lines = readings(Dashboard("c", "step", Speeds(), car, idle_left=left), 80, True)
+        lines = readings(dashboard("step", car, idle_left=left), 80, True)
         assert [li.spans[0].style for li in lines if f"neutral in {left} s" in li.spans[0].text] == [style]
 
 
 @pytest.mark.parametrize(("fraction", "angle"), [(0.5, 0.2), (-1.0, -0.4), (7.0, 0.4), (float("nan"), 0.0)])
 def test_the_wheels_point_where_the_pulse_says(car, fraction, angle):
     pulses = [Pulse("throttle", 0, 0.9, 1500.0, 370), Pulse("steering", 1, fraction, 1500.0, 375)]
-    board = Dashboard("c", "step", Speeds(), car, status=status(pulses=pulses))
+    board = dashboard("step", car, status=status(pulses=pulses))
     assert steering_angle(board) == pytest.approx(angle)
     assert "throttle 370, steering 375" in " ".join(texts(readings(board, 80, True)))
 
@@ -82,16 +79,16 @@ LATE = {"max_speed": 2.25, "slowed": "commands of keyboard are up to 300 ms old"
 def test_a_cap_that_bites_is_one_line_and_one_that_does_not_is_none(car, columns, words):
     capped = "at most 2.25 m/s: commands of keyboard are up to 300 ms old"[:words]
     for changes, lines in ((LATE, [capped]), ({}, [])):
-        board = Dashboard("c", "step", Speeds(), car, status=status(**changes))
+        board = dashboard("step", car, status=status(**changes))
         assert [text for text in texts(readings(board, columns, True)) if "at most" in text] == lines
 
 
 def test_on_a_wide_screen_a_cap_moves_nothing_and_yields_to_a_long_reason(car):
-    board = Dashboard("c", "step", Speeds(), car, status=status(**LATE))
+    board = dashboard("step", car, status=status(**LATE))
     shown = texts(readings(board, 80, True))
     assert shown[1:3] == ["obeying keyboard", "at most 2.25 m/s: commands of keyboard are up to 300 ms old"]
     assert shown[3].startswith("Currently outputting")
     why = "a long reason to stand still " * 4
-    shown = texts(readings(board._replace(status=status(why=why, **LATE)), 80, True))
+    shown = texts(readings(dashboard("step", car, status=status(why=why, **LATE)), 80, True))
     assert "at most" not in " ".join(shown)
     assert shown[3].startswith("Currently outputting")

@@ -4,10 +4,12 @@ import pyte
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from unit.screen.boards import dashboard
 
 from zteleop.control.stick import Speeds
 from zteleop.messages import Channel, DriveStatus, Odometry, Pulse, Pwm, Stop, Twist, Vehicle
 from zteleop.screen.render import Dashboard, render
+from zteleop.screen.view import View
 from zteleop.terminal.cells import width
 
 
@@ -15,15 +17,14 @@ def shown(board: Dashboard, columns: int = 80, rows: int = 24) -> list[str]:
     return render(board, columns, rows, unicode=True, color=False)
 
 
-def board(car: Vehicle, drive: str = "step", why: str = "obeying keyboard", note: str = "") -> Dashboard:
+def board(car: Vehicle, drive: str = "step", why: str = "obeying keyboard", **more: object) -> Dashboard:
     pulses = [Pulse("steering", 1, 0.5, 1500.0, 330)]
     rest = Twist.zero()
     status = DriveStatus(
         "driving", why, "keyboard", "3fa2", rest, rest, pulses, 1, 0.0, [], "", "", 0, 0, 3.0, 0.06, "", 0
     )
-    return Dashboard(
-        "archangel", drive, Speeds(), car, pwm=Pwm(375, 370), status=status, odom=Odometry.zero(), note=note
-    )
+    seen = {"command": Pwm(375, 370), "status": status, "odom": Odometry.zero()} | more
+    return dashboard(drive, car, robot="archangel", **seen)
 
 
 @pytest.mark.parametrize("why", ["", "obeying keyboard", "a long reason " * 30])
@@ -62,14 +63,14 @@ def test_the_stop_key_comes_first_and_the_release_key_only_while_stopped(car, co
     text = " ".join(shown(page, columns, 40))
     assert "backspace STOP" in text
     assert "r release" not in text
-    page.status.stops = [Stop.zero()]
+    page.seen.status.stops = [Stop.zero()]
     lines = [line for line in shown(page, columns, 40) if "backspace STOP" in line or "r release" in line]
     assert " ".join(lines).split()[:4] == ["backspace", "STOP", "r", "release"]
 
 
 def test_stopped_is_said_in_red_with_its_reason_and_the_stop_key_is_bold(car):
     page = board(car, why="stopped by ann@desk: a cat")
-    page.status.state = "stopped"
+    page.seen.status.state = "stopped"
     for columns in (80, 40):
         lines = render(page, columns, 24, unicode=True, color=True)
         assert any("\x1b[31m● stopped\x1b[0m" in line for line in lines[:2])
@@ -83,14 +84,14 @@ ALARM = "archangel has not acknowledged the stop within 2 s: cut its power, or r
 
 @pytest.mark.parametrize(("columns", "rows"), [(80, 24), (40, 12), (30, 6), (120, 40)])
 def test_an_alarm_is_whole_and_red_in_any_window(car, columns, rows):
-    page = board(car, note=ALARM)._replace(alarm=True)
+    page = board(car, note=ALARM, alarm=True)
     assert ALARM in " ".join(shown(page, columns, rows))
     reds = [line for line in render(page, columns, rows, unicode=True, color=True) if "\x1b[31m" in line]
     assert ALARM in " ".join(re.sub(r"\x1b\[\d+m", "", line) for line in reds)
 
 
 def test_on_a_single_line_an_alarm_stands_before_what_is_driven(car):
-    assert shown(board(car, note=ALARM)._replace(alarm=True), 40, 1) == [f"● driving  {ALARM}"[:40]]
+    assert shown(board(car, note=ALARM, alarm=True), 40, 1) == [f"● driving  {ALARM}"[:40]]
 
 
 def test_a_small_window_keeps_what_matters_most(car):
@@ -103,7 +104,7 @@ def test_text_from_the_bus_cannot_write_on_the_screen(car):
     nasty = "\x1b[2J\x1b[H\x9b31m\u202e\r\n\x07 evil"
     for columns in (80, 30):
         page = board(car, why=nasty, note=nasty)._replace(robot=nasty)
-        page.status.source = page.status.operator = page.status.pulses[0].name = nasty
+        page.seen.status.source = page.seen.status.operator = page.seen.status.pulses[0].name = nasty
         for line in render(page, columns, 24, unicode=True, color=True):
             assert re.sub(r"\x1b\[\d+m", "", line).isprintable()
 
@@ -122,7 +123,7 @@ def test_without_unicode_all_is_ascii(car):
 def test_a_cap_takes_the_stop_key_from_no_window(car, columns, rows, drive):
     page = board(car, drive)
     before = " ".join(shown(page, columns, rows))
-    page.status.max_speed, page.status.slowed = 1.5, "the Pi's supply is too low (undervoltage)"
+    page.seen.status.max_speed, page.seen.status.slowed = 1.5, "the Pi's supply is too low (undervoltage)"
     after = " ".join(shown(page, columns, rows))
     assert ("backspace STOP" in after) == ("backspace STOP" in before)
     assert "backspace STOP" in after or rows < 7
@@ -130,7 +131,7 @@ def test_a_cap_takes_the_stop_key_from_no_window(car, columns, rows, drive):
 
 def test_a_cap_is_shown_in_a_common_window(car):
     page = board(car)
-    page.status.max_speed, page.status.slowed = 1.5, "the Pi's supply is too low (undervoltage)"
+    page.seen.status.max_speed, page.seen.status.slowed = 1.5, "the Pi's supply is too low (undervoltage)"
     assert "at most 1.50 m/s: the Pi's supply is too low (undervoltage)" in shown(page)
 
 
@@ -159,20 +160,22 @@ def boards(draw) -> Dashboard:
     status = DriveStatus(state, *words, twist, twist, pulses, 0, 0.0, [], "", "", 0, 0, *cap, 0)
     odom = Odometry.zero()
     odom.pose.pose.position.x, odom.pose.pose.orientation.z = draw(ANY), draw(ANY)
+    seen = View(
+        vehicle=vehicle,
+        command=draw(st.sampled_from([None, twist, Pwm(draw(ticks), draw(ticks))])),
+        status=draw(st.sampled_from([None, status])),
+        ours=draw(st.booleans()),
+        odom=draw(st.sampled_from([None, odom])),
+        note=draw(WORDS),
+        alarm=draw(st.booleans()),
+    )
     return Dashboard(
         draw(WORDS),
         draw(st.sampled_from(["step", "hold"])),
         Speeds(draw(st.floats(0, 100)), 1.0),
-        vehicle,
-        pwm=draw(st.sampled_from([None, Pwm(draw(ticks), draw(ticks))])),
-        twist=draw(st.sampled_from([None, twist])),
-        status=draw(st.sampled_from([None, status])),
-        ours=draw(st.booleans()),
-        odom=draw(st.sampled_from([None, odom])),
+        seen,
         trail=draw(st.lists(st.tuples(ANY, ANY), max_size=3)),
         idle_left=draw(st.sampled_from([None, 0.0, 3.2])),
-        note=draw(WORDS),
-        alarm=draw(st.booleans()),
     )
 
 

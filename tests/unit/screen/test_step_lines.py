@@ -1,8 +1,7 @@
 import pytest
+from unit.screen.boards import dashboard
 
-from zteleop.control.stick import Speeds
 from zteleop.messages import Pwm
-from zteleop.screen.dashboard import Dashboard
 from zteleop.screen.step_lines import bar, step_lines
 
 
@@ -31,20 +30,20 @@ def test_more_steps_than_cells_share_them_and_the_first_shows():
     ],
 )
 def test_the_levers_are_bars(car, steering, throttle, lines):
-    shown = texts(step_lines(Dashboard("car", "step", Speeds(), car, pwm=Pwm(steering, throttle)), 80))
+    shown = texts(step_lines(dashboard("step", car, command=Pwm(steering, throttle)), 80))
     assert tuple(shown[2:4]) == lines
 
 
 def test_right_is_right_whichever_number_is_larger(car):
     channel = car.channels[0]
     channel.min_ticks, channel.max_ticks = channel.max_ticks, channel.min_ticks
-    shown = texts(step_lines(Dashboard("car", "step", Speeds(), car, pwm=Pwm(390, 370)), 80))
+    shown = texts(step_lines(dashboard("step", car, command=Pwm(390, 370)), 80))
     assert shown[2] == "steering  [      O>     ]  right 1/6"
 
 
 @pytest.mark.parametrize("pwm", [None, Pwm(330, 399)])
 def test_bars_and_their_words_fit(car, pwm):
-    board = Dashboard("c", "step", Speeds(), car, pwm=pwm) if pwm else Dashboard("c", "step", Speeds())
+    board = dashboard("step", car, command=pwm) if pwm else dashboard("step")
     for columns in range(20, 81):
         bars = texts(step_lines(board, columns))[2:]
         assert all("]" in text for text in bars)

@@ -45,7 +45,9 @@ class Host:
     def __init__(
         self, session: ZenohSession, listener: socket.socket, loop: Loop, complain: Callable[[str], object]
     ) -> None:
-        self._session, self._listener, self._loop = session, listener, loop
+        self._session = session
+        self._listener = listener
+        self._loop = loop
         self._complain = complain
         self._guests: list[Guest] = []
         listener.setblocking(False)
@@ -78,7 +80,9 @@ class Guest:
     """One of the robot's own processes, and what it has declared."""
 
     def __init__(self, session: ZenohSession, wire: Wire[Ask], complain: Callable[[str], object]) -> None:
-        self._session, self._wire, self._complain = session, wire, complain
+        self._session = session
+        self._wire = wire
+        self._complain = complain
         self._declared: dict[int, Undeclarable] = {}
         self._outlets: dict[int, Outlet] = {}
         self._waiting: deque[Arrived] = deque()

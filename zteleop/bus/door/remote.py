@@ -26,6 +26,7 @@ from zteleop.bus.door.frames import (
     Undeclare,
     WatchTokens,
 )
+from zteleop.bus.door.turns import Turns
 from zteleop.bus.door.wire import Wire
 from zteleop.bus.loop import Loop, Timer
 from zteleop.bus.session import Inbox, Sample
@@ -54,7 +55,8 @@ class Remote:
         self._knock: Timer | None = None
         self._wire: Wire[Answer] | None = None
         self._looked = float("-inf")
-        self.is_open = self.closed = False
+        self.is_open = False
+        self.closed = False
         self._join()
 
     def subscribe(self, key: str, depth: int) -> "RemoteRing":
@@ -83,9 +85,9 @@ class Remote:
             self.await_more(give_up)
         return set(self._answers.pop(asked))
 
-    def deliver(self, inbox: Inbox, handler: Callable[[Any], object], loop: Loop) -> "Turns":
+    def deliver(self, inbox: Inbox, handler: Callable[[Any], object], loop: Loop) -> Turns:
         ring: Any = inbox.ring
-        turns: Turns = Turns(inbox, handler, loop)
+        turns = Turns(inbox, handler, loop)
         ring.turns = turns
         if self._loop is None:
             self._loop, self._knock = loop, loop.alarm(self.read)
@@ -227,7 +229,8 @@ class RemoteRing:
     """Keeps the newest samples; whoever finds it empty takes in what has arrived for any."""
 
     def __init__(self, remote: Remote, identity: int, depth: int) -> None:
-        self._remote, self._id = remote, identity
+        self._remote = remote
+        self._id = identity
         self._samples: deque[Sample] = deque(maxlen=depth)
         self.turns: Turns | None = None
 
@@ -263,36 +266,8 @@ class RemoteOutlet:
     matched = True
 
     def __init__(self, remote: Remote, identity: int) -> None:
-        self._remote, self._id = remote, identity
+        self._remote = remote
+        self._id = identity
 
     def put(self, payload: bytes, encoding: str, attachment: bytes | None) -> None:
         self._remote.put(Put(self._id, payload, encoding, attachment))
-
-
-class Turns:
-    """Hands what waits in a ring to its handler, one message a round of the loop."""
-
-    def __init__(self, inbox: Inbox, handler: Callable[[Any], object], loop: Loop) -> None:
-        self._inbox, self._handler, self._loop = inbox, handler, loop
-        self._waits = self._closed = False
-
-    def wake(self) -> None:
-        """Take a turn soon; for the loop's own thread."""
-        if not self._waits:
-            self._waits = True
-            self._loop.call_next(self._hand_over)
-
-    def close(self) -> None:
-        self._closed = True
-
-    def _hand_over(self) -> None:
-        self._waits = False
-        ring: Any = self._inbox.ring
-        if self._closed or ring.is_empty:
-            return
-        sample = ring.try_recv()
-        if not ring.is_empty:
-            self.wake()
-        received = self._inbox.read(sample)
-        if received is not None:
-            self._handler(received)

@@ -21,7 +21,8 @@ class Steady:
     """One twist for some seconds, or without end."""
 
     def __init__(self, twist: Twist, seconds: float | None) -> None:
-        self._twist, self._seconds = twist, seconds
+        self._twist = twist
+        self._seconds = seconds
         self._began: float | None = None
 
     def twist(self, pose: Pose2D, now: float) -> Twist | None:
@@ -34,7 +35,8 @@ class Laps:
     """One twist until the robot has turned so often."""
 
     def __init__(self, twist: Twist, laps: float) -> None:
-        self._twist, self._turn = twist, laps * tau
+        self._twist = twist
+        self._turn = laps * tau
         self._turned = 0.0
         self._heading: float | None = None
 

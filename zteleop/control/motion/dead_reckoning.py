@@ -49,10 +49,12 @@ class DeadReckoning:
     """Counts from 0, 0, 0: by a twist or by wheels, and with the heading of an IMU once there is one."""
 
     def __init__(self, settings: OdometrySettings, steers: bool = False) -> None:
-        self._settings, self.steers = settings, steers
+        self._settings = settings
+        self.steers = steers
         """The vehicle steers, as a car does: while it stands it does not turn."""
         self.pose = Pose2D()
-        self.speed = self.yaw_rate = 0.0
+        self.speed = 0.0
+        self.yaw_rate = 0.0
         self.distance = 0.0
         """m rolled since the start, back and forth"""
         self._ticks: tuple[int, int] | None = None

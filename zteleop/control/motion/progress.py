@@ -11,7 +11,8 @@ class Progress:
     """What was asked of a robot since it last did enough of it: m along its way, and rad on the spot."""
 
     def __init__(self) -> None:
-        self._way = self._turn = 0.0
+        self._way = 0.0
+        self._turn = 0.0
         self._from: tuple[float, float, float] | None = None
 
     def ask(self, twist: Twist, seconds: float) -> None:

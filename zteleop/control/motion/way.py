@@ -47,8 +47,11 @@ class Way:
 
     def __init__(self, legs: Sequence[Leg], speed: float, turn_speed: float, most_bend: float) -> None:
         """Take m/s along lines and arcs, rad/s on the spot, and the most curvature that corrects, 1/m."""
-        self._legs, self._number = legs, 0
-        self._speed, self._turn_speed, self._most_bend = speed, turn_speed, most_bend
+        self._legs = legs
+        self._number = 0
+        self._speed = speed
+        self._turn_speed = turn_speed
+        self._most_bend = most_bend
 
     def twist(self, pose: Pose2D, now: float) -> Twist | None:
         """Return what holds the way from a pose; None at its end."""

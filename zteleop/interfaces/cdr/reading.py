@@ -39,7 +39,9 @@ def reader(kind: type[Message], order: str) -> Read:
 
 class _Reader:
     def __init__(self, kind: type[Message], order: str, first: str) -> None:
-        self._kind, self._parts, self._order = kind, parts(kind), order
+        self._kind = kind
+        self._parts = parts(kind)
+        self._order = order
         self._source = Source(first)
         self._run: list[Part] = []
         self._names: list[str] = []

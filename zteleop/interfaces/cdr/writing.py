@@ -37,7 +37,8 @@ def writer(kind: type[Message]) -> Write:
 
 class _Writer:
     def __init__(self, kind: type[Message], first: str) -> None:
-        self._kind, self._parts = kind, parts(kind)
+        self._kind = kind
+        self._parts = parts(kind)
         self._source = Source(first)
         self._run: list[Part] = []
         self._values: list[str] = []

@@ -26,7 +26,8 @@ class Findings:
     """Grows while a file is looked through."""
 
     def __init__(self) -> None:
-        self.profile, self.library = "", ""
+        self.profile = ""
+        self.library = ""
         self.blocks: list[Block] = []
         self.chunks = 0
         self.attachments: list[int] = []

@@ -82,8 +82,11 @@ def _order(times: "array[int]") -> "range | list[int]":
 
 class _Reading:
     def __init__(self, data: bytes, directory: Directory, wanted: Wanted, only_known: bool) -> None:
-        self._data, self._wanted, self._only_known = data, wanted, only_known
-        self._at = self._last = 0
+        self._data = data
+        self._wanted = wanted
+        self._only_known = only_known
+        self._at = 0
+        self._last = 0
         self._runs: list[Run] = []
         self._asked: dict[int, bool] = {}
         self._turn(directory)

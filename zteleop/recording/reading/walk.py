@@ -39,7 +39,8 @@ def walk(source: Source) -> Findings:
 
 class _Walk:
     def __init__(self, source: Source) -> None:
-        self._source, self._landmarks = source, Landmarks(source)
+        self._source = source
+        self._landmarks = Landmarks(source)
         self._found = Findings()
 
     def go(self) -> Findings:

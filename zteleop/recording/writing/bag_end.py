@@ -26,7 +26,8 @@ class BagEnd:
         self._metadata: list[bytes] = []
         self.counts: Counter[int] = Counter()
         self.messages = 0
-        self.begins = self.ends = 0
+        self.begins = 0
+        self.ends = 0
         """ns since 1970, of the first message and of the last"""
 
     def known(self, record: records.Schema | records.Channel) -> None:

@@ -53,11 +53,14 @@ class BagWriter:
         chunk_size: int = CHUNK,
         profile: str = PROFILE,
     ) -> None:
-        self.path, self._compression, self._chunk_size = path, compression, chunk_size
+        self.path = path
+        self._compression = compression
+        self._chunk_size = chunk_size
         self._stream: Stream = stream or _create(path)
         self._schemas: dict[tuple[str, str, bytes], int] = {}
         self._channels: dict[ChannelKey, int] = {}
-        self._chunk, self._end = Chunk(), BagEnd()
+        self._chunk = Chunk()
+        self._end = BagEnd()
         self._closed = False
         self.refused = ""
         """why it could not be written on; its end is missing"""

@@ -33,7 +33,8 @@ class Wheels:
     """Speeds in m/s of the rims, and how far they have rolled, in m."""
 
     def __init__(self) -> None:
-        self.speeds, self.rolled = STILL, STILL
+        self.speeds = STILL
+        self.rolled = STILL
 
     @property
     def speed(self) -> float:

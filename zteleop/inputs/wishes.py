@@ -1,0 +1,17 @@
+"""What an operator asks of the robot besides driving, by keys that repeat while they are held."""
+
+from zteleop.inputs import Wish
+
+
+class Wishes:
+    """The newest that nobody has taken yet; a release never takes back a stop."""
+
+    def __init__(self) -> None:
+        self.newest: Wish | None = None
+        self._asked = dict.fromkeys(Wish, float("-inf"))
+
+    def ask(self, wish: Wish, gap: float, now: float) -> None:
+        """Take in a press; one that follows the last within `gap` s is a key's repeat, and asks nothing."""
+        if now - self._asked[wish] > gap and self.newest is not Wish.STOP:
+            self.newest = wish
+        self._asked[wish] = now

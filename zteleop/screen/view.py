@@ -1,0 +1,34 @@
+"""What there is to show of one robot and of whoever drives it, at one moment."""
+
+from typing import NamedTuple
+
+from zteleop.control.stick import Stick
+from zteleop.messages import DriveStatus, Odometry, Pwm, Twist, Vehicle
+
+
+class View(NamedTuple):
+    """What was not heard is None."""
+
+    now: float = 0.0
+    vehicle: Vehicle | None = None
+    stick: Stick = Stick()
+    command: Twist | Pwm | None = None
+    """What is asked for; None is rest."""
+    status: DriveStatus | None = None
+    """None when no actuator is heard"""
+    ours: bool = False
+    """the robot obeys this device"""
+    odom: Odometry | None = None
+    note: str = ""
+    alarm: bool = False
+    """the note says what the operator must know now"""
+
+    @property
+    def pwm(self) -> Pwm | None:
+        """The ticks asked for; None where they are neutral, or a twist is asked for."""
+        return self.command if isinstance(self.command, Pwm) else None
+
+    @property
+    def twist(self) -> Twist | None:
+        """The twist asked for; None where it is rest, or ticks are asked for."""
+        return self.command if isinstance(self.command, Twist) else None
