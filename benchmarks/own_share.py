@@ -86,7 +86,7 @@ def own_share(presses: int) -> OwnShare:
     with tempfile.TemporaryDirectory() as folder, HeldNode("keyboard", open_session(bus)) as node:
         settings = DriveSettings()
         driver = StampedDriver(open_driver("simulated", {"path": f"{folder}/chip"}))
-        robot = HeldNode("actuator", node.session)
+        robot = HeldNode("actuator", node.membership.session)
         watchdog, theirs = link.pair()
 
         def press_all() -> None:
@@ -127,7 +127,7 @@ def _press_all(
         time.sleep(2 * AT_MOST_EVERY)
         terminal.typed = KEYS[index % 2]
         began = time.perf_counter()
-        node.heard().listen()
+        node.membership.heard().listen()
         teleop.obey()
         share.keyboard.append(1000 * (node.puts["pwm/keyboard"].at - began))
         began, sample = time.perf_counter(), inbox.ring.try_recv()

@@ -78,7 +78,7 @@ class Bench:
         self.node: Node = rig.node()
         self.statuses = self.node.subscription("drive_status", DriveStatus)
         self.dogs = self.node.subscription("watchdog", WatchdogStatus)
-        heard = self.node.heard()
+        heard = self.node.membership.heard()
 
         def ready() -> bool:
             heard.listen()

@@ -231,7 +231,7 @@ class Rig:
 
     def hear(self, node: Node) -> None:
         """Wait until a node hears the robot's beat and knows its vehicle."""
-        heard = node.heard()
+        heard = node.membership.heard()
 
         def known() -> bool:
             heard.listen()

@@ -106,7 +106,7 @@ class Stage:
         if state not in ("starting", "idle"):
             self._drive(FOR_A_WHILE if state == "operator idle" else ALWAYS)
         if state == "idle":
-            heard = bench.node.heard()
+            heard = bench.node.membership.heard()
             self._until(lambda: heard.listen() or heard.ready, "the robot is ready")
         if state == "link lost":
             bench.operator.signal(signal.SIGSTOP)

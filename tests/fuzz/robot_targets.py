@@ -83,7 +83,7 @@ def link_of_watchdog(data: bytes) -> None:
     with ours:
         for at in range(1, len(data), size):
             ours.send(data[at : at + size])
-            child.hear()
+            child.hear(0.0)
         assert child.silence(101.0) >= 0
         assert child.silence(1e300) > 1
     assert len(end._rest) < link._REPORT.size

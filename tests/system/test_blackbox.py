@@ -33,7 +33,7 @@ class Bench:
         self.node: Node = rig.node()
         rig.hear(self.node)
         self.pwm = self.node.publisher("pwm", Pwm, source="keyboard")
-        until(lambda: presence.holders(self.node.session, rig.robot, "blackbox"), "a black box")
+        until(lambda: presence.holders(self.node.membership.session, rig.robot, "blackbox"), "a black box")
 
     @property
     def folder(self) -> Path:
@@ -207,7 +207,7 @@ def test_the_drive_knows_nothing_of_it_where_it_is_off(rig: Rig) -> None:
     rig.hear(node)
     time.sleep(2.0)  # twice the time after which it would start
     assert watchdog.recorder is None
-    assert presence.holders(node.session, rig.robot, "blackbox") == []
+    assert presence.holders(node.membership.session, rig.robot, "blackbox") == []
 
 
 HOSTILE: dict[str, Callable[[Any, str], object]] = {
@@ -225,7 +225,7 @@ def test_whatever_is_said_it_is_told_and_nobody_dies(bench: Bench) -> None:
     node = bench.rig.node("odd")
     odd = node.publisher("odd", String)
     until(lambda: odd.matched, "the black box")
-    session = node.session.zenoh  # another would learn of the black box later
+    session = node.membership.session.zenoh  # another would learn of the black box later
     for say in HOSTILE.values():
         say(session, f"robot/{bench.rig.robot}")
     bench.rig.result("stop", *bench.rig.bus_options())

@@ -3,13 +3,16 @@
 import os
 import re
 import signal
+import subprocess
+import sys
 from collections.abc import Iterator
 
 import pytest
 from rig import NEUTRAL, ROOT, Process, Rig, Terminal, until
 
 EXAMPLES = ROOT / "examples"
-TRIED = {"publisher", "subscriber", "circle", "keys", "donkeycar"}
+TESTS = {"test_there_and_back"}
+TRIED = {"publisher", "subscriber", "circle", "keys", "donkeycar", "there_and_back"}
 
 
 @pytest.fixture(scope="module")
@@ -40,8 +43,32 @@ def ends(process: Process, by: int) -> None:
 
 
 def test_each_program_is_tried_and_told() -> None:
-    assert {path.stem for path in EXAMPLES.glob("*.py")} == TRIED
-    assert set(re.findall(r"\]\((\w+)\.py\)", (EXAMPLES / "README.md").read_text())) == TRIED
+    assert {path.stem for path in EXAMPLES.glob("*.py")} == TRIED | TESTS
+    assert set(re.findall(r"\]\((\w+)\.py\)", (EXAMPLES / "README.md").read_text())) == TRIED | TESTS
+
+
+def test_a_program_is_tested_without_a_robot() -> None:
+    command = [
+        sys.executable,
+        "-m",
+        "pytest",
+        "-q",
+        "--rootdir",
+        str(EXAMPLES),
+        *map(str, EXAMPLES.glob("test_*.py")),
+    ]
+    tested = subprocess.run(command, cwd=EXAMPLES, capture_output=True, text=True, check=False)
+    assert tested.returncode == 0, tested.stdout
+    assert re.search(r"^\d passed", tested.stdout, re.MULTILINE), tested.stdout
+
+
+def test_there_and_back_ends_where_it_began(rig: Rig) -> None:
+    program = start(rig, "there_and_back")
+    until(lambda: rig.ticks[1] > NEUTRAL[1], "the way there")
+    until(lambda: rig.ticks[1] < NEUTRAL[1], "the way back")
+    program.says("there and back")
+    assert program.ends() == 0
+    until(lambda: rig.ticks == NEUTRAL, "rest")
 
 
 def test_the_publisher_drives_until_it_is_ended(rig: Rig) -> None:

@@ -1,11 +1,10 @@
 """What most of the rooms need: a clock that stands still, a node without a bus, and two vehicles."""
 
 import pytest
-from unit.bus.fakes import Clock
-from unit.nodes.fakes import Node
 
 from zteleop.bus import clock as bus_clock
 from zteleop.messages import Channel, Vehicle
+from zteleop.testing import Clock, FakeNode
 
 
 @pytest.fixture
@@ -16,8 +15,8 @@ def clock(monkeypatch: pytest.MonkeyPatch) -> Clock:
 
 
 @pytest.fixture
-def node() -> Node:
-    return Node()
+def node(clock: Clock) -> FakeNode:
+    return FakeNode(clock=clock)
 
 
 @pytest.fixture

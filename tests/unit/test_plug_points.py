@@ -8,8 +8,6 @@ from pathlib import Path
 from typing import ClassVar
 
 import pytest
-from unit.bus.fakes import Clock
-from unit.nodes.fakes import Node
 
 from zteleop import chaos, drivers
 from zteleop.bus import codec
@@ -24,6 +22,7 @@ from zteleop.messages import Message, Vehicle
 from zteleop.nodes.teleop import Teleop
 from zteleop.processes import PROGRAMS, Program
 from zteleop.processes.__main__ import main as run_program
+from zteleop.testing import Clock, FakeNode
 
 HOUSE = Path(__file__).parents[2] / "docs/house.md"
 ELSEWHERE = {"kind of vehicle": "test_third_kind", "deadline": "test_deadlines"}
@@ -82,7 +81,7 @@ class Metronome:
 
 
 def test_a_device_to_drive_with(tank: Vehicle, clock: Clock) -> None:
-    node = Node()
+    node = FakeNode()
     teleop = Teleop(node, Metronome(), "metronome", tank, lambda view: None)
     teleop.obey()
     assert teleop._twists.messages[-1].twist.linear.x == tank.max_speed / 2

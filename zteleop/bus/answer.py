@@ -76,16 +76,16 @@ class Answer:
             self._told = told
             words, advice = self._find(told)
             self._at = now if words else self._at
-            self._say(words, advice)
+            self._tell(words, advice)
         elif moving and self._words and now - self._at > LASTS:
-            self._say("", "")
+            self._tell("", "")
 
     def _find(self, told: Refusals) -> tuple[str, str]:
         why = next((refused.why for refused in told.refused if refused.sender == self._sender), "")
         rest = f" ({told.rest})" if why and told.rest else ""
         return why + rest, ADVICE.get(why, "")
 
-    def _say(self, words: str, advice: str) -> None:
+    def _tell(self, words: str, advice: str) -> None:
         before, self._words = self._words, words
         if words and words != before:
             todo = f"; {advice}" if advice else ""

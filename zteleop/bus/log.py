@@ -24,16 +24,16 @@ class NodeLog:
         self._held_back = 0
 
     def info(self, text: str) -> None:
-        self.say(Log.INFO, text, text)
+        self.tell(Log.INFO, text, text)
 
     def warn(self, text: str, subject: str = "") -> None:
-        self.say(Log.WARN, text, subject or text)
+        self.tell(Log.WARN, text, subject or text)
 
     def error(self, text: str, subject: str = "") -> None:
-        self.say(Log.ERROR, text, subject or text)
+        self.tell(Log.ERROR, text, subject or text)
 
-    def say(self, level: int, text: str, subject: str) -> None:
-        """Say a sentence, unless its subject, or too much else, was spoken of within the last second."""
+    def tell(self, level: int, text: str, subject: str) -> None:
+        """Tell a sentence, unless its subject, or too much else, was spoken of within the last second."""
         now = clock.now()
         self._said = {said: at for said, at in self._said.items() if now - at < 1.0}
         if subject in self._said or (level == Log.WARN and len(self._said) >= _A_SECOND):

@@ -22,6 +22,10 @@ class Timer(Struct):
     action: Action
     due: float
 
+    def ring_at(self, due: float) -> None:
+        """Fire at a time of the bus clock."""
+        self.due = due
+
     def reschedule(self, now: float) -> None:
         """Take the next time of the schedule that lies ahead."""
         if self.period is None:
@@ -79,7 +83,7 @@ class Loop:
         return timer
 
     def alarm(self, action: Action) -> Timer:
-        """Return a timer that runs an action once, whenever its `due` is set."""
+        """Return a timer that runs an action once, whenever it is told when."""
         timer = Timer(None, action, FAR)
         self._timers.append(timer)
         return timer

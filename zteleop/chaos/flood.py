@@ -25,7 +25,8 @@ def main(endpoint: str, robot: str, rate: str, size: str, *topics: str) -> None:
     in_a_row = IN_A_ROW if float(rate) > 1000 else 1
     payload = json.dumps(TWIST).encode().ljust(int(size))
     with Node("flood", robot, bus) as node:
-        outlets = cycle([node.session.advertise(f"robot/{robot}/{topic}", False) for topic in topics])
+        session = node.membership.session
+        outlets = cycle([session.advertise(f"robot/{robot}/{topic}", False) for topic in topics])
         os.write(1, b"floods\n")
         due = time.monotonic()
         while True:

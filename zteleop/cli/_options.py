@@ -137,4 +137,4 @@ def add_parent(parser: argparse.ArgumentParser) -> None:
 def end_with_parent(options: argparse.Namespace, node: Node) -> None:
     """End when stdin does: whoever started this process is gone, however it died."""
     if options.with_parent:
-        node.watch(sys.stdin.fileno(), node.stop)
+        node.membership.loop.watch(sys.stdin.fileno(), node.stop)

@@ -61,14 +61,14 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _judge(subject: Subject, faults: list[tuple[str, Fault]], arguments: argparse.Namespace) -> list[Verdict]:
     verdicts = []
-    _say(HEAD, arguments)
+    _print(HEAD, arguments)
     for kind, fault in faults:
         verdicts.append(verdict(kind, fault, _try(subject, fault, arguments.times)))
-        _say(verdicts[-1].line(), arguments)
+        _print(verdicts[-1].line(), arguments)
     return verdicts
 
 
-def _say(line: str, arguments: argparse.Namespace) -> None:
+def _print(line: str, arguments: argparse.Namespace) -> None:
     if not arguments.json:
         print(line, flush=True)
 

@@ -94,7 +94,7 @@ def await_robot(node: Node, children: Sequence[Process], log: Path) -> None:
     odoms = node.subscription("odom", Odometry)
     give_up = clock.now() + START
     while clock.now() < give_up and all(process.poll() is None for process in children):
-        if node.heard().ready and odoms.newest():
+        if node.membership.heard().ready and odoms.newest():
             return
         node.spin(0.01)
     words = log.read_text().strip().splitlines()

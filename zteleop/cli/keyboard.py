@@ -60,7 +60,7 @@ def find_vehicle(node: Node, settings: Config) -> Vehicle:
     """Return what the robot says of itself; when it is not there yet, what the settings say."""
     give_up = clock.now() + HEARD_WITHIN
     while clock.now() < give_up:
-        if vehicle := node.heard().vehicle:
+        if vehicle := node.membership.heard().vehicle:
             return vehicle
         node.spin(0.01)
     return to_vehicle(

@@ -76,7 +76,7 @@ def _say(
             return
         said += 1
         print(f"publishing #{said}: {message}\n", flush=True)
-        if resume and resume.may(node.heard().refusals, clock.now()):
+        if resume and resume.may(node.membership.heard().refusals, clock.now()):
             node.log.warn("begins anew by itself, as --resume says")
             publisher.let_go()
         publisher.publish(message)
@@ -100,8 +100,8 @@ def _is_command(topic: str, robot: str | None) -> bool:
 
 def _wait(node: Node, publisher: Publisher[Message], command: bool) -> None:
     """Wait until somebody hears; for a command until the robot that it proves its age to has started."""
-    heard = node.heard()
-    matched = node.until(lambda: publisher.matched and (heard.beat or not command), HEARD_WITHIN)
+    heard = node.membership.heard()
+    matched = node.membership.until(lambda: publisher.matched and (heard.beat or not command), HEARD_WITHIN)
     if command and not matched:
         raise BusError(f"robot {node.robot} does not answer; is its actuator on? zteleop list shows who is")
     if command:

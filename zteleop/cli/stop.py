@@ -33,7 +33,7 @@ def run(arguments: argparse.Namespace) -> int:
     settle = every or settings.robot is None
     if arguments.release:
         with _options.join_for_any("stop", settings, settle=settle) as node:
-            robot = _options.find_robot(node.session, settings)
+            robot = _options.find_robot(node.membership.session, settings)
             print(printable(release(node, robot, arguments.all)))
             return 0
     with Call(settings.bus) as lane:
@@ -90,7 +90,7 @@ class Stops:
         self.heed()
         for stopping in self._asked.values():
             _listen(node, stopping)
-        node.until(self.heed, 2 * REPEAT)
+        node.membership.until(self.heed, 2 * REPEAT)
         unheard = [stopping for stopping in self._asked.values() if stopping.unheard]
         for stopping in unheard:
             if stopping.state == "done":
@@ -117,9 +117,9 @@ def release(node: Node, robot: str, everybodys: bool = False) -> str:
     """End one's own stops that a robot shows, or everybody's, and return what to tell; BusError when not."""
     statuses = node.subscription(f"/{robot}/drive_status", DriveStatus)
     stopping = Stopping(node, person(), robot)
-    stopping.release(node.until(statuses.newest, ACKNOWLEDGED_WITHIN), clock.now(), everybodys)
+    stopping.release(node.membership.until(statuses.newest, ACKNOWLEDGED_WITHIN), clock.now(), everybodys)
     _listen(node, stopping)
-    node.until(lambda: stopping.heed(None, clock.now()), 2 * ACKNOWLEDGED_WITHIN)
+    node.membership.until(lambda: stopping.heed(None, clock.now()), 2 * ACKNOWLEDGED_WITHIN)
     if stopping.state != "done":
         raise BusError(stopping.words + (f"; {_who_is_here(node)}" if stopping.unheard else ""))
     return stopping.words
@@ -143,7 +143,7 @@ def _tell(stopping: Stopping) -> None:
 
 def _who_is_here(node: Node) -> str:
     """Return who could have been meant, where a robot is not heard."""
-    found = presence.robots(node.session)
+    found = presence.robots(node.membership.session)
     return f"heard here: {', '.join(found)}" if found else "no robot is heard here"
 
 
@@ -151,7 +151,7 @@ def _robots(node: Node, settings: Config, every: bool) -> list[str]:
     """Return the robots meant: of several that nobody has named all, unless somebody can be asked."""
     if settings.robot and not every:
         return [settings.robot]
-    found = presence.robots(node.session)
+    found = presence.robots(node.membership.session)
     if len(found) > 1 and not every:
         return _ask(found)
     named = [settings.robot] if settings.robot else []

@@ -31,7 +31,7 @@ def explain(node: Node) -> str:
         dog = dogs.newest() or dog
         return bool(status and why and dog)
 
-    node.until(complete, HEARD_WITHIN)
+    node.membership.until(complete, HEARD_WITHIN)
     if status is None and dog is None:
         raise BusError(
             f"no actuator of {node.robot} is heard within {HEARD_WITHIN:g} s; is it on? "

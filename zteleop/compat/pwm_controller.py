@@ -67,8 +67,8 @@ def _own_node() -> Node:
 
 def _join(node: Node) -> Pair:
     pwms = node.publisher("pwm", Pwm)
-    heard = node.heard()
-    if not node.until(lambda: heard.beat and heard.vehicle and pwms.matched, HEARD_WITHIN):
+    heard = node.membership.heard()
+    if not node.membership.until(lambda: heard.beat and heard.vehicle and pwms.matched, HEARD_WITHIN):
         stderr.flush()  # what the log said of it comes first, and the error is the last word
         raise BusError(f"robot {node.robot} does not answer; start zteleop actuator first")
     assert heard.vehicle

@@ -3,96 +3,100 @@
 from collections.abc import Iterator
 
 from zteleop.control import curvature
-from zteleop.control.cap import Bound
-from zteleop.control.drive import Drive, Step
 from zteleop.control.evidence import STANDS, Evidence
 from zteleop.control.mux import Claim
 from zteleop.control.proof import called
+from zteleop.control.snapshot import Snapshot
 from zteleop.messages import Layer, Pwm, Twist
 
-RECENT = 10.0
-"""s for which a refusal is worth a sentence."""
 OLD = 0.1
 """s after which pulses are no longer what the robot means now"""
 _LEAST = 0.005
 """m/s or rad/s below which two twists are one."""
 
 
-def layers(drive: Drive, step: Step, chip: Evidence, now: float) -> list[Layer]:
+def layers(seen: Snapshot, chip: Evidence) -> list[Layer]:
     """Return the sentences, from the operator to the wheels."""
     return [
-        Layer("operator", _operator(step, now)),
-        Layer("gate", _gate(drive, now)),
-        Layer("mux", _mux(drive, step, now)),
-        Layer("rest", _rest(drive, step, now)),
-        Layer("cap", _cap(drive, step)),
-        Layer("limiter", _limiter(drive, step)),
-        Layer("wheels", _wheels(drive, chip, now)),
+        Layer("operator", _operator(seen)),
+        Layer("gate", _gate(seen)),
+        Layer("mux", _mux(seen)),
+        Layer("rest", _rest(seen)),
+        Layer("cap", _cap(seen)),
+        Layer("limiter", _limiter(seen)),
+        Layer("wheels", _wheels(seen, chip)),
     ]
 
 
-def _operator(step: Step, now: float) -> str:
-    claim = step.claim
-    if claim is None:
-        return "nobody operates"
-    return f"{_sender(claim)} operates, acted {now - claim.acted:.1f} s ago and asks for {_asked(claim)}"
-
-
-def _mux(drive: Drive, step: Step, now: float) -> str:
-    heard = drive.admission
-    claims = [claim for claim in heard.mux.claims if not heard.silences.silent(claim, now)]
-    waiting = [_sender(claim) for claim in claims if claim is not step.claim]
-    priority = drive.settings.known_sources[step.claim.source].priority if step.claim else 0
-    chosen = f"{step.claim.source} drives with priority {priority}" if step.claim else "no claim counts"
-    return f"{chosen}; {', '.join(waiting)} waits" if waiting else chosen
-
-
-def _gate(drive: Drive, now: float) -> str:
-    recent = [f"{name}: {found}" for name, found in _refusals(drive, now)]
-    return f"refuses {'; '.join(recent)}" if recent else "refuses nobody"
-
-
-def _refusals(drive: Drive, now: float) -> Iterator[tuple[str, str]]:
-    for source, refused in drive.admission.refusals.recent(now, RECENT).items():
-        since, ago = now - refused.since, now - refused.at
-        yield source, f"{refused.why} ({refused.times} times in {since:.1f} s, last {ago:.1f} s ago)"
-
-
-def _rest(drive: Drive, step: Step, now: float) -> str:
-    if holds := drive.admission.holds.in_order:
-        return "; ".join(f"{hold.state} for {now - hold.since:.1f} s: {hold.why}" for hold in holds)
-    return "free to move" if step.claim else f"{step.state}: {step.why}"
-
-
-def _cap(drive: Drive, step: Step) -> str:
-    bound, top = step.bound, _metres(drive.movement.cap.top)
-    if bound.by != "vehicle":
-        return f"{_metres(bound.speed)} of {top} m/s: {slowed(drive, step)}{_distance(drive, step)}"
-    return f"{top} m/s: {_age(drive, step.claim, bound) if step.claim else 'nobody drives'}"
-
-
-def slowed(drive: Drive, step: Step) -> str:
+def slowed(seen: Snapshot) -> str:
     """Return why the vehicle may not go as fast as it can; nothing when it may."""
-    claim, bound = step.claim, step.bound
+    claim, bound = seen.step.claim, seen.step.bound
     if bound.by == "strain":
-        return drive.movement.cap.strain.why
+        return seen.strain
     if claim is None or bound.by == "vehicle":
         return ""
     if bound.by == "source":
         return f"{claim.source} may drive no faster here"
-    return _age(drive, claim, bound)
+    return _age(seen, claim)
 
 
-def _age(drive: Drive, claim: Claim, bound: Bound) -> str:
-    if drive.admission.foreign.includes(claim):
+def wanted(seen: Snapshot) -> Twist:
+    """Return what the operator asks for as a twist; rest when nobody does."""
+    if seen.step.claim is None:
+        return Twist.planar()
+    command = seen.step.claim.command
+    if isinstance(command, Pwm):
+        return seen.settings.mixer.unmix(seen.calibration.wheels(command))
+    return command
+
+
+def _operator(seen: Snapshot) -> str:
+    claim = seen.step.claim
+    if claim is None:
+        return "nobody operates"
+    acted = f"{seen.now - claim.acted:.1f} s ago"
+    return f"{_sender(claim)} operates, acted {acted} and asks for {_asked(claim)}"
+
+
+def _mux(seen: Snapshot) -> str:
+    claim = seen.step.claim
+    waiting = [_sender(other) for other in seen.claims if other is not claim]
+    priority = seen.settings.known_sources[claim.source].priority if claim else 0
+    chosen = f"{claim.source} drives with priority {priority}" if claim else "no claim counts"
+    return f"{chosen}; {', '.join(waiting)} waits" if waiting else chosen
+
+
+def _gate(seen: Snapshot) -> str:
+    told = []
+    for source, refused in seen.refused.items():
+        since, ago = seen.now - refused.since, seen.now - refused.at
+        told.append(f"{source}: {refused.why} ({refused.times} times in {since:.1f} s, last {ago:.1f} s ago)")
+    return f"refuses {'; '.join(told)}" if told else "refuses nobody"
+
+
+def _rest(seen: Snapshot) -> str:
+    if seen.holds:
+        return "; ".join(f"{hold.state} for {seen.now - hold.since:.1f} s: {hold.why}" for hold in seen.holds)
+    return "free to move" if seen.step.claim else f"{seen.step.state}: {seen.step.why}"
+
+
+def _cap(seen: Snapshot) -> str:
+    claim, bound = seen.step.claim, seen.step.bound
+    if bound.by != "vehicle":
+        return f"{_metres(bound.speed)} of {_metres(seen.top)} m/s: {slowed(seen)}{_distance(seen)}"
+    return f"{_metres(seen.top)} m/s: {_age(seen, claim) if claim else 'nobody drives'}"
+
+
+def _age(seen: Snapshot, claim: Claim) -> str:
+    if seen.foreign:
         return f"commands of {claim.source} cannot prove their age"
-    return f"commands of {claim.source} are up to {bound.latency * 1000:.0f} ms old"
+    return f"commands of {claim.source} are up to {seen.step.bound.latency * 1000:.0f} ms old"
 
 
-def _distance(drive: Drive, step: Step) -> str:
-    if step.bound.by != "link":
+def _distance(seen: Snapshot) -> str:
+    if seen.step.bound.by != "link":
         return ""
-    distance = drive.settings.cap.stopping_distance
+    distance = seen.settings.cap.stopping_distance
     return f", and it must stop {f'within {distance:g} m' if distance else 'as soon as on a good link'}"
 
 
@@ -100,22 +104,22 @@ def _metres(speed: float) -> str:
     return f"{round(speed, 2):g}"
 
 
-def _limiter(drive: Drive, step: Step) -> str:
-    if step.claim is None:
+def _limiter(seen: Snapshot) -> str:
+    if seen.step.claim is None:
         return "nothing to limit"
-    asked, applied = wanted(drive, step), drive.settings.mixer.unmix(step.wheels)
+    asked, applied = wanted(seen), seen.settings.mixer.unmix(seen.step.wheels)
     if _near(asked, applied):
         return "passes it on as asked"
-    bounds = "; ".join(_bounds(drive, step, step.claim, asked, applied)) or "the wheels can do no better"
+    bounds = "; ".join(_bounds(seen, seen.step.claim, asked, applied)) or "the wheels can do no better"
     return f"makes it {_twist(applied)}: {bounds}"
 
 
-def _bounds(drive: Drive, step: Step, claim: Claim, asked: Twist, applied: Twist) -> Iterator[str]:
+def _bounds(seen: Snapshot, claim: Claim, asked: Twist, applied: Twist) -> Iterator[str]:
     """Yield what bounds a claim."""
-    mixer, limits = drive.settings.mixer, drive.settings.limits
-    speed = step.bound.speed
+    mixer, limits = seen.settings.mixer, seen.settings.limits
+    speed = seen.step.bound.speed
     if abs(asked.linear.x) > speed + _LEAST:
-        capped = step.bound.by in ("link", "strain")
+        capped = seen.step.bound.by in ("link", "strain")
         yield f"the cap is {_metres(speed)} m/s" if capped else f"{claim.source} may drive {speed:g} m/s here"
     best = mixer.unmix(mixer.mix(asked))
     if abs(applied.linear.x) < min(abs(best.linear.x), speed) - _LEAST:
@@ -126,25 +130,15 @@ def _bounds(drive: Drive, step: Step, claim: Claim, asked: Twist, applied: Twist
         yield "it turns no tighter"
 
 
-def _wheels(drive: Drive, chip: Evidence, now: float) -> str:
+def _wheels(seen: Snapshot, chip: Evidence) -> str:
     """Return what the chip took, however long ago, and what is known of a stop."""
-    pulses = drive.calibration.pulses(chip.pulse_us)
+    pulses = seen.calibration.pulses(chip.pulse_us)
     said = [", ".join(f"{p.name} {p.pulse_us:.0f} us = {p.duty_ticks} ticks" for p in pulses)]
-    if now - chip.written > OLD:
-        said.append(f"which the chip took {now - chip.written:.1f} s ago, and nothing since")
-    if drive.admission.latch.stops:
+    if seen.now - chip.written > OLD:
+        said.append(f"which the chip took {seen.now - chip.written:.1f} s ago, and nothing since")
+    if seen.stopped:
         said.append(STANDS[chip.confirmed])
     return "; ".join(said)
-
-
-def wanted(drive: Drive, step: Step) -> Twist:
-    """Return what the operator asks for as a twist; rest when nobody does."""
-    if step.claim is None:
-        return Twist.planar()
-    command = step.claim.command
-    if isinstance(command, Pwm):
-        return drive.settings.mixer.unmix(drive.calibration.wheels(command))
-    return command
 
 
 def _asked(claim: Claim) -> str:

@@ -5,6 +5,7 @@ from zteleop.control.evidence import Evidence
 from zteleop.control.explain import slowed, wanted
 from zteleop.control.refusals import Turned
 from zteleop.control.settings import DriveSettings
+from zteleop.control.snapshot import snapshot
 from zteleop.messages import DriveStatus, Refusals, Refused, Vehicle
 
 
@@ -24,15 +25,15 @@ def to_vehicle(settings: DriveSettings, tick_us: float, ready: bool = True) -> V
     )
 
 
-def status(drive: Drive, step: Step, chip: Evidence, unkept: str = "") -> DriveStatus:
+def status(drive: Drive, step: Step, chip: Evidence, now: float, unkept: str = "") -> DriveStatus:
     """Return what a robot does; `unkept` says why its stops are on no disk."""
-    claim = step.claim
+    claim, seen = step.claim, snapshot(drive, step, now)
     return DriveStatus(
         state=step.state,
         why=step.why,
         source=claim.source if claim else "",
         operator=f"{claim.sender:x}" if claim else "",
-        wanted=wanted(drive, step),
+        wanted=wanted(seen),
         applied=drive.settings.mixer.unmix(step.wheels),
         pulses=drive.calibration.pulses(chip.pulse_us),
         seq=claim.seq if claim else 0,
@@ -44,7 +45,7 @@ def status(drive: Drive, step: Step, chip: Evidence, unkept: str = "") -> DriveS
         clamped=drive.clamped,
         max_speed=step.bound.speed,
         latency=step.bound.latency,
-        slowed=slowed(drive, step),
+        slowed=slowed(seen),
         released=drive.admission.latch.released,
     )
 

@@ -27,12 +27,12 @@ class Door:
         command: Sequence[str],
         orders: Callable[[bool], bytes],
         place: str,
-        say: Callable[[str], object],
+        tell: Callable[[str], object],
     ) -> None:
         self._command = command
         self._orders = orders
         self.place = place
-        self.say = say
+        self.tell = tell
         self._listener = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         self._listener.bind(place)
         self._listener.listen()
@@ -126,7 +126,7 @@ class Door:
         self.is_open = True
         self._was_open = True
         if self.starts > 1:
-            self.say(f"the door is open again, {now - self._vigil.started:.1f} s after its start")
+            self.tell(f"the door is open again, {now - self._vigil.started:.1f} s after its start")
 
     def _judge(self, now: float) -> str:
         assert self._process
@@ -139,7 +139,7 @@ class Door:
         self._kill()
         if self._link:
             self._link.close()
-        self.say(f"the door to the bus is shut: {why}; another opens{after}, and nobody drives meanwhile")
+        self.tell(f"the door to the bus is shut: {why}; another opens{after}, and nobody drives meanwhile")
 
     def _kill(self) -> None:
         if self._process:

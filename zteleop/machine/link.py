@@ -110,7 +110,7 @@ class WatchdogEnd(End):
         super().__init__(file)
         self._rest = b""
 
-    def say(self, word: bytes) -> None:
+    def send(self, word: bytes) -> None:
         self._send(word)
 
     def stop(self, stop: Stop) -> None:

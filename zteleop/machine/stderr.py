@@ -32,7 +32,7 @@ class LineWriter:
         self._thread: threading.Thread | None = None
         self._writing = False
 
-    def say(self, line: str) -> None:
+    def tell(self, line: str) -> None:
         self._lines.append(line)
         if self._bell.empty():  # else it has yet to come for this line as well
             self._bell.put(None)
@@ -70,9 +70,9 @@ def _stand_back() -> None:
 _writer = LineWriter(2)
 
 
-def say(line: str) -> None:
+def tell(line: str) -> None:
     """Say a line on stderr, soon."""
-    _writer.say(line)
+    _writer.tell(line)
 
 
 def flush() -> None:

@@ -73,7 +73,7 @@ class Actuator:
         self._watched = clock.now()
         self._step = self._drive.step(self._watched)
         self._answered = float("-inf")
-        self._soon = node.alarm(self._answer)
+        self._soon = node.membership.loop.alarm(self._answer)
 
     def run(self) -> None:
         """Drive until the node is stopped, then leave the chip at neutral."""
@@ -82,8 +82,8 @@ class Actuator:
                 for topic in ("cmd_vel", "pwm"):
                     self._node.subscription(f"{topic}/{source}", TOPICS[topic].types, self._receive)
             self._node.subscription("stop", Stop, lambda received: self._obey(received.message))
-            self._node.departures(self._withdraw)
-            self._node.watch(self._link.fileno(), self._hear_watchdog)
+            self._node.membership.departures(self._withdraw)
+            self._node.membership.loop.watch(self._link.fileno(), self._hear_watchdog)
             self._node.every(STEP_EVERY)(self._tick)
             self._node.every(TOPICS["beat"].every)(lambda: self._state.tell(self._step))
             self._node.every(TOPICS["why"].every)(lambda: self._state.describe(self._step))
@@ -143,7 +143,7 @@ class Actuator:
 
     def _step_soon(self, now: float) -> None:
         """Step at once, or as soon as the last answer is old enough."""
-        self._soon.due = max(now, self._answered + AT_MOST_EVERY)
+        self._soon.ring_at(max(now, self._answered + AT_MOST_EVERY))
 
     def _answer(self) -> None:
         """Step for what has arrived, 200 times a second on the average, a few in a row at once."""

@@ -101,7 +101,7 @@ class BlackBox:
 
     def run(self) -> None:
         """Listen until told to end, or until the watchdog is gone; write first what is due."""
-        self._node.watch(self._ear, self._hear_watchdog)
+        self._node.membership.loop.watch(self._ear, self._hear_watchdog)
         self._node.every(LISTEN_EVERY)(self._listen)
         try:
             self._node.spin()

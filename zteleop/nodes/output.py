@@ -21,10 +21,10 @@ FAULT, SLOWNESS, ARMING = "chip", "bus", "arming"
 class Output:
     """Writes pulses; keeps the drive at rest while its chip is at fault, and while the ESC arms."""
 
-    def __init__(self, driver: PulseDriver, drive: Drive, say: Callable[[str], object]) -> None:
+    def __init__(self, driver: PulseDriver, drive: Drive, tell: Callable[[str], object]) -> None:
         self._driver = driver
         self._admission = drive.admission
-        self._say = say
+        self._tell = tell
         self._calibration = drive.calibration
         self._neutral_us = drive.calibration.neutral_us
         self._taken: Mapping[int, float] = self._neutral_us
@@ -116,7 +116,7 @@ class Output:
         with suppress(DeviceError):
             found = self._driver.read([channel for channel in CHANNELS if channel not in self._neutral_us])
             if moving := [str(channel) for channel, width in found.items() if width is not None]:
-                self._say(
+                self._tell(
                     f"channels {', '.join(moving)} of the chip put out pulses that are not this robot's; "
                     "nothing here stops them: end what drives them, or switch the chip's supply off and on"
                 )
@@ -127,10 +127,10 @@ class Output:
         if self._bus.drags:
             words = f"its bus is slow: a write took {took * 1000:.0f} ms, of at most {SLOW * 1000:.0f}"
             if SLOWNESS not in self._admission.holds:
-                self._say(f"the chip is at fault: {words}")
+                self._tell(f"the chip is at fault: {words}")
             self._admission.hold(SLOWNESS, "fault", f"{words}; look at its wires, pull-ups and clock", now)
         elif self._bus.runs and SLOWNESS in self._admission.holds:
-            self._say("the bus of the chip is quick again")
+            self._tell("the bus of the chip is quick again")
             self._admission.free(SLOWNESS, now)
 
     def _look_twice(self) -> None:
@@ -153,7 +153,7 @@ class Output:
         self._broken = True
         self._reads_rest = False
         self._repair_at = now
-        self._say(f"the chip is at fault: {words}")
+        self._tell(f"the chip is at fault: {words}")
         self._admission.hold(FAULT, "fault", words, now)
 
     def _repair(self, now: float) -> None:
@@ -165,7 +165,7 @@ class Output:
             return
         self._broken = False
         self._failed = 0
-        self._say("the chip is back, at neutral")
+        self._tell("the chip is back, at neutral")
         self._arm(now)
         self._admission.free(FAULT, now)
 

@@ -10,7 +10,7 @@ class Sight:
     """One robot: whether it is heard, is the same, rests, and what it says of itself."""
 
     def __init__(self, node: Node) -> None:
-        self._heard = node.heard()
+        self._heard = node.membership.heard()
         self._statuses = node.subscription("drive_status", DriveStatus)
         self._odoms = node.subscription("odom", Odometry)
         self._logs = node.subscription("log", Log)

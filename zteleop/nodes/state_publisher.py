@@ -7,6 +7,7 @@ from zteleop.control.explain import layers
 from zteleop.control.gate import Refusal
 from zteleop.control.refusals import RefusedSenders
 from zteleop.control.report import refusals, status, to_vehicle
+from zteleop.control.snapshot import snapshot
 from zteleop.machine.stop_file import StopFile
 from zteleop.messages import Beat, DriveStatus, Refusals, Vehicle, Why
 from zteleop.nodes.output import Output
@@ -38,13 +39,14 @@ class StatePublisher:
 
     def tell_status(self, step: Step) -> None:
         """Say what the robot does."""
-        self._statuses.publish(status(self._drive, step, self._output.evidence, self._stop_file.unkept))
+        chip, unkept = self._output.evidence, self._stop_file.unkept
+        self._statuses.publish(status(self._drive, step, chip, clock.now(), unkept))
 
     def describe(self, step: Step) -> None:
         """Say what the robot is, why it does what it does, and who is refused."""
         self._vehicles.publish(to_vehicle(self._drive.settings, self._tick_us, step.state != "starting"))
         now = clock.now()
-        self._whys.publish(Why(layers(self._drive, step, self._output.evidence, now)))
+        self._whys.publish(Why(layers(snapshot(self._drive, step, now), self._output.evidence)))
         refused = self._refused.news(now)
         if refused is not None:  # nothing while all is well
             self._refusals.publish(refusals(self._drive, refused, now))

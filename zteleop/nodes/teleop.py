@@ -48,7 +48,7 @@ class Teleop:
         self._neutrals = 0
         self._stick = Stick()
         self._wanted: Twist | Pwm | None = None
-        self._picture = node.alarm(self._draw)
+        self._picture = node.membership.loop.alarm(self._draw)
         device.fit(vehicle)
 
     def run(self) -> None:
@@ -58,7 +58,7 @@ class Teleop:
         """
         file = self._device.fileno()
         if file is not None:
-            self._node.watch(file, self.obey)
+            self._node.membership.loop.watch(file, self.obey)
         self._node.every(PERIOD)(self.obey)
         try:
             self._node.spin()
@@ -87,7 +87,7 @@ class Teleop:
             self._neutrals -= command is None
             self._say(command)
         self._stick, self._wanted = stick, command
-        self._picture.due = now + SHOW_AFTER
+        self._picture.ring_at(now + SHOW_AFTER)
         if self._device.finished and self._stopping.state != "pending" and not self._stopping.repeats(now):
             self._node.stop()
 

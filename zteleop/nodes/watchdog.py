@@ -91,7 +91,7 @@ class Watchdog:
         self._ears.forget_beats()
         self._child.start(clock.now(), self._standing)
         assert self._child.link
-        self._node.watch(self._child.link.fileno(), self._hear_actuator)
+        self._node.membership.loop.watch(self._child.link.fileno(), self._hear_actuator)
 
     def _hear_actuator(self) -> None:
         was_ready = self._child.ready
@@ -134,7 +134,7 @@ class Watchdog:
         hears = self._ears.hears(report.standing.epoch if report else None, clock.now())
         if self._child.link:
             word = HEARS if hears else HEARS_NOT
-            self._child.link.say(CUT[word] if self._hand.pin_cuts else word)
+            self._child.link.send(CUT[word] if self._hand.pin_cuts else word)
         systemd.notify("WATCHDOG=1")
 
     def _look(self) -> None:
@@ -197,7 +197,7 @@ class Watchdog:
         """
         now = clock.now()
         if self._child.link:
-            self._node.unwatch(self._child.link.fileno())
+            self._node.membership.loop.unwatch(self._child.link.fileno())
         code = self._child.end(patience)
         self._rest()
         if self._never_stepped and code and code > 0:  # it has said why, in a sentence of its own

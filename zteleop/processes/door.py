@@ -51,7 +51,7 @@ def run(listener: int, link: int) -> int:
     with place, watchdog, session, closing(Newcomer(own_listeners())) as newcomer:
         realtime.ask_for(PROGRAM.priority, PROGRAM.oom_score)
         loop = Loop(lambda: None)
-        Host(session, place, loop, stderr.say)
+        Host(session, place, loop, stderr.tell)
         loop.watch(watchdog.fileno(), loop.stop)  # it says nothing, so this is its end
         loop.every(ALIVE_EVERY, lambda: _say_alive(watchdog))
         loop.every(PROVE_EVERY, session.prove)
@@ -72,7 +72,7 @@ def _must_let_in(newcomer: Newcomer) -> None:
 
 
 def _end_broken(why: str) -> NoReturn:
-    stderr.say(f"door: error: {why}; this door ends")
+    stderr.tell(f"door: error: {why}; this door ends")
     stderr.flush()
     os._exit(BROKEN)
 

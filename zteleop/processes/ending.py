@@ -18,17 +18,17 @@ def in_words(program: str, act: Callable[[], int | None], *, debug: bool = False
     except ZteleopError as error:
         if debug:
             raise
-        _say(program, str(error))
+        _tell(program, str(error))
         return error.exit_code
     except Exception as error:
         if debug:
             raise
         bug = f"{type(error).__name__}: {error} (a bug; --debug shows where)"
-        _say(program, limits.reached(error) or bug)
+        _tell(program, limits.reached(error) or bug)
         return 1
     finally:
         undo_signals()
 
 
-def _say(program: str, words: str) -> None:
+def _tell(program: str, words: str) -> None:
     sys.stderr.write(printable(f"{program}: {words}\n", keep="\n"))

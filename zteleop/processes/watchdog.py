@@ -49,14 +49,14 @@ def run(settings: Config, hand: PulseDriver, joined: Callable[[Node], object]) -
         place = None if len(tempfile.gettempdir()) < LONGEST_PLACE else "/tmp"
         folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="zteleop-", dir=place))
         bus = _reachable(settings.bus)
-        door = Door(DOOR, lambda first: _orders(bus, first), f"{folder}/door", stderr.say)
+        door = Door(DOOR, lambda first: _orders(bus, first), f"{folder}/door", stderr.tell)
         stack.callback(door.close)
         behind = BusSettings(mode="client", connect=[f"{BEHIND}{door.place}"], multicast=False)
         session = stack.enter_context(open_session(behind))
         if code := _open(door):
             return code
         node = stack.enter_context(_join(robot, session))
-        door.say = node.log.error
+        door.tell = node.log.error
         node.every(LOOK_EVERY)(lambda: door.tend(clock.now()))
         joined(node)
         pin = output_enable(settings.driver, chip)
@@ -105,7 +105,7 @@ def _pass_over(node: Node, holders: str) -> None:
     Raises DeviceError when one does.
     """
     statuses = node.subscription("watchdog", WatchdogStatus)
-    if node.until(statuses.newest, SPEAKS_WITHIN):
+    if node.membership.until(statuses.newest, SPEAKS_WITHIN):
         raise DeviceError(f"robot {node.robot} has an actuator already: {holders}; stop it, or say --robot")
     node.log.warn(f"{holders} holds the place of this robot's watchdog and says nothing; it is passed over")
 

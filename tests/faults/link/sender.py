@@ -29,7 +29,7 @@ class Operator:
     """Says a command at a rate; each is an act, or, when it is a standing one, none but the first."""
 
     def __init__(self, node: Node, *, standing: bool) -> None:
-        self._heard, self._standing = node.heard(), standing
+        self._heard, self._standing = node.membership.heard(), standing
         self._motors = node.publisher("pwm", Pwm, source="keyboard")
         self._rests_until = 0.0
         self._acts = True

@@ -13,19 +13,6 @@ from zteleop.bus.session import Sample
 from zteleop.messages import Message
 
 
-class Clock:
-    """The bus clock, where a test decides what time it is."""
-
-    def __init__(self, time: float = 1000.0) -> None:
-        self.time = time
-
-    def now(self) -> float:
-        return self.time
-
-    def pass_by(self, seconds: float) -> None:
-        self.time += seconds
-
-
 def put(
     payload: bytes,
     encoding: str = "application/json;std_msgs/msg/String",

@@ -1,5 +1,5 @@
 import pytest
-from unit.bus.fakes import Clock, Ring, sample
+from unit.bus.fakes import Ring, sample
 
 from zteleop.bus import codec
 from zteleop.bus.answer import ADVICE, LASTS, UNHEARD, Answer
@@ -8,6 +8,7 @@ from zteleop.bus.log import NodeLog
 from zteleop.bus.subscription import Subscription
 from zteleop.control.gate import Refusal
 from zteleop.messages import Beat, Message, Refusals, Refused, Vehicle
+from zteleop.testing import Clock
 
 WORDS = "not now"
 

@@ -1,5 +1,5 @@
 import pytest
-from unit.bus.fakes import Clock, Ring, sample
+from unit.bus.fakes import Ring, sample
 
 from zteleop.bus import codec, heard
 from zteleop.bus.heard import Heard
@@ -7,6 +7,7 @@ from zteleop.bus.subscription import Subscription
 from zteleop.control.report import to_vehicle
 from zteleop.control.settings import DriveSettings
 from zteleop.messages import Beat, Refusals, Vehicle
+from zteleop.testing import Clock
 
 CAR = to_vehicle(DriveSettings(), 4.08)
 

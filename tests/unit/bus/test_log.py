@@ -1,8 +1,8 @@
 import pytest
-from unit.bus.fakes import Clock
 
 from zteleop.bus.log import NodeLog
 from zteleop.messages import Log
+from zteleop.testing import Clock
 
 
 class Ears:

@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterator
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from unit.bus.fakes import Clock
 
 from zteleop.bus.loop import FAR, LONGEST_WAIT, Loop, Timer
+from zteleop.testing import Clock
 
 real_select = select.select
 

@@ -1,9 +1,11 @@
 """A node on a session that is none: what it declares, resolves and refuses. Its travels are system tests."""
 
+import re
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
-from unit.bus.fakes import Clock, Outlet, Session, sample
+from unit.bus.fakes import Outlet, Session, sample
 
 from zteleop.bus import codec, presence
 from zteleop.bus.heard import Heard
@@ -11,6 +13,7 @@ from zteleop.bus.node import Node
 from zteleop.errors import ConfigError
 from zteleop.machine import stderr
 from zteleop.messages import Beat, Int16MultiArray, Log, Odometry, Pwm, String, Twist, TwistStamped
+from zteleop.testing import Clock
 
 HEARD = ("beat", "vehicle", "refusals")
 
@@ -187,19 +190,19 @@ def test_every_and_stop(node: Node, clock: Clock) -> None:
 
 
 def test_an_alarm_rings_in_spin(node: Node, clock: Clock) -> None:
-    node.alarm(node.stop).due = clock.time
+    node.membership.loop.alarm(node.stop).ring_at(clock.time)
     node.spin()
 
 
 def test_what_is_heard_of_a_robot_is_heard_once(node: Node, session: Session) -> None:
-    assert node.heard() is node.heard("archangel")
-    assert node.heard("zoe") is not node.heard()
+    assert node.membership.heard() is node.membership.heard("archangel")
+    assert node.membership.heard("zoe") is not node.membership.heard()
     assert set(session.rings) == {f"robot/{r}/{t}" for r in ("archangel", "zoe") for t in HEARD}
 
 
 def test_without_a_robot_nobody_is_heard(stranger: Node) -> None:
     with pytest.raises(ConfigError, match=r"node nose has no robot; say Node\('nose', robot=\.\.\.\)"):
-        stranger.heard()
+        stranger.membership.heard()
 
 
 def test_a_handlers_command_echoes_the_beat_heard_before_it_began(node: Node, session: Session) -> None:
@@ -213,8 +216,18 @@ def test_a_handlers_command_echoes_the_beat_heard_before_it_began(node: Node, se
         publisher.publish(Twist.planar(0.5))
         node.stop()
 
-    node._loop.call_soon(handle)
+    node.membership.loop.call_soon(handle)
     node.spin()
     publisher.publish(Twist.planar(0.5))
     puts = said(session, "robot/archangel/cmd_vel/program").puts
     assert [codec.unpack_proof(put.attachment).beat for put in puts] == [5.0, 6.0]
+
+
+def test_the_page_shows_all_of_a_node() -> None:
+    page = (Path(__file__).parents[3] / "docs/programs.md").read_text()
+    table = page[page.index("## All of a node") : page.index("## Without a robot")]
+    shown = set(re.findall(r"node\.(\w+)", table))
+    public = {
+        name for name in (*vars(Node), *vars(Node("nose", session=Session()))) if not name.startswith("_")
+    }
+    assert shown == public - {"membership"}

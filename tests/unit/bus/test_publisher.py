@@ -1,5 +1,5 @@
 import pytest
-from unit.bus.fakes import Clock, Outlet, Ring, sample
+from unit.bus.fakes import Outlet, Ring, sample
 
 from zteleop.bus import codec
 from zteleop.bus.answer import Answer
@@ -28,6 +28,7 @@ from zteleop.messages import (
     TwistStamped,
     Vehicle,
 )
+from zteleop.testing import Clock
 
 CAR = to_vehicle(DriveSettings(), 4.08)
 TANK = to_vehicle(

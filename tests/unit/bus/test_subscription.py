@@ -1,12 +1,13 @@
 """An inbox and its pump, with the ring in the test's hands and no thread."""
 
 import pytest
-from unit.bus.fakes import Clock, Ring, Sample, put, sample
+from unit.bus.fakes import Ring, Sample, put, sample
 
 from zteleop.bus import codec
 from zteleop.bus.subscription import Received, Subscription
 from zteleop.control.proof import Proof
 from zteleop.messages import Pwm, String
+from zteleop.testing import Clock
 
 PROOF = Proof(1, 2, 3, 4.0, 5.0, 6.0)
 

@@ -1,10 +1,11 @@
 from typing import Any
 
 import pytest
-from unit.bus.fakes import Clock, Ring, Sample, Session, put
+from unit.bus.fakes import Ring, Sample, Session, put
 
 from zteleop.bus import tap as module
 from zteleop.bus.tap import Raw, Tap
+from zteleop.testing import Clock
 
 PREFIX = "robot/archangel/"
 

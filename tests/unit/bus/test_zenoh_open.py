@@ -9,12 +9,12 @@ from typing import Any
 import msgspec
 import pytest
 import zenoh
-from unit.bus.fakes import Clock
 
 from zteleop.bus import zenoh_open as module
 from zteleop.bus.settings import IF_FREE, ROBOT_ENDPOINT, SAME_MACHINE, BusSettings
 from zteleop.bus.zenoh_open import open_zenoh
 from zteleop.errors import BusError, ConfigError
+from zteleop.testing import Clock
 
 
 @pytest.fixture

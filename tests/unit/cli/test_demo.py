@@ -1,10 +1,10 @@
 from types import SimpleNamespace
 
 import pytest
-from unit.bus.fakes import Clock
 
 from zteleop.cli.demo import Teller
 from zteleop.messages import DriveStatus, Odometry
+from zteleop.testing import Clock
 
 
 def view(clock: Clock, x: float = 0.0, heard: bool = True) -> SimpleNamespace:

@@ -1,10 +1,11 @@
 import pytest
 import yaml
-from unit.bus.fakes import Clock, Ring, put, sample
+from unit.bus.fakes import Ring, put, sample
 
 from zteleop.cli import echo
 from zteleop.errors import BusError
 from zteleop.messages import String, Twist
+from zteleop.testing import Clock
 
 
 def test_a_message_is_printed_as_yaml_that_can_be_read_back(capsys: pytest.CaptureFixture[str]) -> None:

@@ -125,7 +125,8 @@ def test_only_without_a_name_it_settles_before_it_looks(monkeypatch: pytest.Monk
 @pytest.mark.parametrize("typed", [True, False])
 def test_a_child_ends_when_its_parent_does(typed: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     watched: dict[int, object] = {}
-    node = SimpleNamespace(watch=watched.__setitem__, stop="stop")
+    loop = SimpleNamespace(watch=watched.__setitem__)
+    node = SimpleNamespace(membership=SimpleNamespace(loop=loop), stop="stop")
     monkeypatch.setattr(_options.sys, "stdin", SimpleNamespace(fileno=lambda: 5))
     _options.end_with_parent(argparse.Namespace(with_parent=typed), node)
     assert watched == ({5: "stop"} if typed else {})

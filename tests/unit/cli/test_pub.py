@@ -3,13 +3,12 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from unit.bus.fakes import Clock
-from unit.nodes.fakes import Node, Said
 
 from zteleop.cli import pub
 from zteleop.control.gate import Refusal
 from zteleop.control.resume import Resume
 from zteleop.messages import DriveStatus, Message, Refusals, Refused, Twist
+from zteleop.testing import Clock, FakeNode, Said
 
 FORWARD = Twist.planar(0.5)
 
@@ -19,19 +18,19 @@ def say(
     times: int | None,
     ticks: int,
     said: Said | None = None,
-    node: Node | None = None,
+    node: FakeNode | None = None,
     resume: Resume | None = None,
 ) -> list[Any]:
     """Return what is said within so many ticks, ended by Ctrl-C."""
-    node, said = node or Node(), said or Said("cmd_vel", "ff")
+    node, said = node or FakeNode(), said or Said("cmd_vel", "ff")
 
     def spin(seconds: float | None = None) -> None:
         if seconds is not None:
             node.stayed = seconds
-            node.timers[0.1]()
+            node.loop.run(0.1)
             return
         for _ in range(ticks):
-            node.timers[0.1]()
+            node.loop.run(0.1)
             if node.stopped:
                 return
         raise KeyboardInterrupt
@@ -73,30 +72,30 @@ def test_what_is_repeated_is_let_go_at_the_end() -> None:
 
 
 def test_what_is_said_so_many_times_stays_said_for_as_long_as_it_is_obeyed() -> None:
-    said, node = Said("cmd_vel", "ff"), Node()
+    said, node = Said("cmd_vel", "ff"), FakeNode()
     say(FORWARD, 3, 10, said, node)
     assert (said.messages, said.lets_go, node.stayed) == ([FORWARD] * 3, 0, 0.5)
 
 
 def test_who_is_ended_leaves_at_once() -> None:
-    node = Node()
+    node = FakeNode()
     say(FORWARD, None, 5, node=node)
     assert not hasattr(node, "stayed")
 
 
 @pytest.mark.parametrize(("released", "lets_go"), [(4, 1), (5, 0)], ids=["restarted", "stopped meanwhile"])
 def test_it_begins_anew_as_it_resumes(clock: Clock, released: int, lets_go: int) -> None:
-    node, said, resume = Node(), Said("cmd_vel", "ff"), Resume("ff")
+    node, said, resume = FakeNode(), Said("cmd_vel", "ff"), Resume("ff")
     resume.heed(status(4))
     refused = Refused("ff", "program", Refusal.EARLIER_START, 0.6)
-    node.robot_heard.refusals = Refusals([refused], "", released)
+    node.membership.robot.refusals = Refusals([refused], "", released)
     say(FORWARD, 3, 3, said, node, resume)
     assert said.lets_go == lets_go
     assert said.messages == [FORWARD] * 3
 
 
 def test_it_follows_what_the_robot_does_to_know_of_a_stop(clock: Clock) -> None:
-    node, resume = Node(), Resume("ff")
+    node, resume = FakeNode(), Resume("ff")
     say(FORWARD, 1, 1, None, node, resume)
     refused = Refused("ff", "program", Refusal.EARLIER_START, 0.6)
     may = []

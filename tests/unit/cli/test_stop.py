@@ -3,8 +3,6 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from unit.bus.fakes import Clock
-from unit.nodes.fakes import Inbox, Node, Said
 
 from zteleop import config
 from zteleop.bus import presence
@@ -16,20 +14,22 @@ from zteleop.control.stop import Latch
 from zteleop.errors import BusError
 from zteleop.messages import DriveStatus, Stop
 from zteleop.nodes.stop_request import REPEAT
+from zteleop.testing import Clock, FakeNode, Inbox, Said
 
 GLANCE = 0.01
 
 
-class Robot(Node):
+class Robot(FakeNode):
     """A node whose `until` lets a robot answer, when there is one."""
 
     calm = ("idle", "nobody drives")
     """State and reason of a robot that is not stopped."""
 
     def __init__(self, clock: Clock, latch: Latch | None) -> None:
-        super().__init__()
+        super().__init__(clock=clock)
         self.clock, self.latch = clock, latch
-        self.session = None
+        self.membership.session = None
+        self.membership.until = self.until
         self.ears: list[Inbox] = []
 
     def subscription(self, topic: str, types: object, handler: Any = None) -> Inbox:
@@ -236,7 +236,7 @@ def test_the_first_word_leaves_before_anything_is_waited_for(clock: Clock) -> No
         order.append("waited")
         raise BusError("enough")
 
-    node.until = until
+    node.membership.until = until
     stops = verb.Stops(lane, "")
     stops.engage(["a", "b"])
     assert order == ["lane a", "lane b"]

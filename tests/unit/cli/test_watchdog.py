@@ -4,28 +4,27 @@ from contextlib import nullcontext
 from typing import Any
 
 import pytest
-from unit.bus.fakes import Clock
 from unit.cli.test_why import dog
-from unit.nodes.fakes import Node
 
 from zteleop.bus.subscription import Received
 from zteleop.cli import watchdog
 from zteleop.errors import BusError
 from zteleop.messages import WatchdogStatus
+from zteleop.testing import Clock, FakeNode
 
 Watch = Callable[..., list[str]]
 
 
 @pytest.fixture
-def node(monkeypatch: pytest.MonkeyPatch) -> Node:
-    node = Node()
+def node(clock: Clock, monkeypatch: pytest.MonkeyPatch) -> FakeNode:
+    node = FakeNode(clock=clock)
     monkeypatch.setattr(watchdog._options, "load_anyhow", lambda arguments: None)
     monkeypatch.setattr(watchdog._options, "join", lambda name, settings: nullcontext(node))
     return node
 
 
 @pytest.fixture
-def watch(node: Node, clock: Clock, capsys: Any) -> Watch:
+def watch(node: FakeNode, clock: Clock, capsys: Any) -> Watch:
     """Say some statuses, 0.2 s apart, and return the lines that are printed."""
 
     def watch(*statuses: WatchdogStatus, once: bool = False) -> list[str]:
@@ -77,22 +76,22 @@ def test_what_the_bus_says_cannot_write_on_the_screen(watch: Watch) -> None:
     assert "\x1b" not in line
 
 
-def test_a_watchdog_that_is_not_heard_is_an_error_in_words(node: Node, clock: Clock) -> None:
-    node.spin = lambda: node.live(clock, 3.0)
+def test_a_watchdog_that_is_not_heard_is_an_error_in_words(node: FakeNode, clock: Clock) -> None:
+    node.spin = lambda: node.live(3.0)
     with pytest.raises(
         BusError, match=r"no watchdog of archangel has been heard for 2 s; if the robot moves"
     ):
         watchdog.run(argparse.Namespace(once=False))
 
 
-def test_one_that_falls_silent_later_is_an_error_too(node: Node, clock: Clock) -> None:
+def test_one_that_falls_silent_later_is_an_error_too(node: FakeNode, clock: Clock) -> None:
     def spin() -> None:
-        node.live(clock, 1.9)
+        node.live(1.9)
         received = Received(dog(), "robot/archangel/watchdog", None, clock.time)
         node.inboxes["watchdog"].handler(received)
-        node.live(clock, 1.9)
+        node.live(1.9)
         with pytest.raises(BusError, match="no watchdog"):
-            node.live(clock, 1.0)
+            node.live(1.0)
 
     node.spin = spin
     watchdog.run(argparse.Namespace(once=False))

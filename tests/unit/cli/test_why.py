@@ -3,15 +3,15 @@ from contextlib import nullcontext
 from typing import Any
 
 import pytest
-from unit.nodes.fakes import Node as Base
 
 from zteleop.cli import why
 from zteleop.cli.why import explain, state_of
 from zteleop.errors import BusError
 from zteleop.messages import DriveStatus, Layer, WatchdogStatus, Why
+from zteleop.testing import FakeNode
 
 
-class Node(Base):
+class Node(FakeNode):
     """One that hears, at its first glance, what the test put into its inboxes."""
 
     def until(self, look: Callable[[], Any], seconds: float) -> Any:
@@ -23,6 +23,7 @@ class Node(Base):
 
 def node(**says: Any) -> Node:
     node = Node()
+    node.membership.until = node.until
     node.says = says
     return node
 

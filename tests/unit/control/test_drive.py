@@ -113,7 +113,7 @@ def test_a_sender_without_proof_is_refused_unless_trusted_by_arrival() -> None:
     for _ in range(20):
         assert robot.drive.receive("nav", FORWARD, None, robot.now) is None
         step = robot.wait(0.06)
-    assert status(robot.drive, step, robot.chip(step)).applied.linear.x == pytest.approx(0.3)
+    assert status(robot.drive, step, robot.chip(step), robot.now).applied.linear.x == pytest.approx(0.3)
 
 
 def test_a_tank_takes_twists_and_refuses_ticks() -> None:
@@ -149,7 +149,10 @@ def test_no_twist_leaves_the_calibration(twists: list[tuple[float, float]]) -> N
         step = robot.wait(0.04)
         assert 897.6 - 1e-6 <= step.pulse_us[0] <= 2040.0 + 1e-6
         assert 1183.2 - 1e-6 <= step.pulse_us[1] <= 1876.8 + 1e-6
-        assert all(abs(pulse.fraction) <= 1 for pulse in status(robot.drive, step, robot.chip(step)).pulses)
+        assert all(
+            abs(pulse.fraction) <= 1
+            for pulse in status(robot.drive, step, robot.chip(step), robot.now).pulses
+        )
 
 
 def test_a_stop_is_neutral_at_once_whoever_drives() -> None:

@@ -14,6 +14,7 @@ from zteleop.control.mixer import Differential
 from zteleop.control.mux import Source
 from zteleop.control.servo import Servo
 from zteleop.control.settings import DriveSettings
+from zteleop.control.snapshot import snapshot
 from zteleop.messages import Confirmed, Pwm, Twist
 
 TANK = DriveSettings(mixer=Differential(), servos={"left": Servo(channel=0), "right": Servo(channel=1)})
@@ -21,7 +22,7 @@ TANK = DriveSettings(mixer=Differential(), servos={"left": Servo(channel=0), "ri
 
 def says(robot: Robot, confirmed: Confirmed = "", age: float = 0.0) -> dict[str, str]:
     step = robot.step()
-    told = layers(robot.drive, step, robot.chip(step, confirmed, age), robot.now)
+    told = layers(snapshot(robot.drive, step, robot.now), robot.chip(step, confirmed, age))
     return {layer.name: layer.says for layer in told}
 
 

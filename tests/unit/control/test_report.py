@@ -11,7 +11,7 @@ from zteleop.messages import DriveStatus, Pwm, Twist
 
 
 def told(robot: Robot, step: Step) -> DriveStatus:
-    return status(robot.drive, step, robot.chip(step))
+    return status(robot.drive, step, robot.chip(step), robot.now)
 
 
 def test_status_tells_who_what_and_why() -> None:

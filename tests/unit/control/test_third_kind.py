@@ -81,7 +81,7 @@ def test_it_is_told_and_shown(settings: DriveSettings) -> None:
     assert (vehicle.kind, vehicle.steers, vehicle.takes_ticks) == ("tricycle", True, False)
     assert {channel.name: channel.channel for channel in vehicle.channels} == {"front": 4, "fork": 5}
     step = robot.hold(Twist.planar(1.0), 0.5)
-    said = status(robot.drive, step, robot.chip(step))
+    said = status(robot.drive, step, robot.chip(step), robot.now)
     board = Dashboard("trike", "hold", Speeds(), View(vehicle=vehicle, status=said))
     page = "\n".join(render(board, 80, 24, unicode=False, color=False))
     assert "applied" in page

@@ -85,15 +85,15 @@ def test_a_frozen_watchdog_neither_blocks_nor_tears_what_it_reads_later(ends: En
 
 def test_a_frozen_actuator_never_blocks_the_watchdog(ends: Ends) -> None:
     for _ in range(MORE_THAN_FITS):
-        ends.dog.say(HEARS)
+        ends.dog.send(HEARS)
     assert ends.actuator.read() == Words(True)
 
 
 @pytest.mark.parametrize(("word", "hears"), [(HEARS, True), (HEARS_NOT, False)])
 def test_the_last_word_counts_and_no_stop_is_lost_among_them(ends: Ends, word: bytes, hears: bool) -> None:
-    ends.dog.say(HEARS_NOT)
+    ends.dog.send(HEARS_NOT)
     ends.dog.stop(STOPPED)
-    ends.dog.say(word)
+    ends.dog.send(word)
     assert ends.actuator.read() == Words(hears, (STOPPED,))
 
 
@@ -119,7 +119,7 @@ def test_the_actuators_end_is_noticed_after_its_last_report(ends: Ends) -> None:
     assert ends.dog.read() == report(1)
     with pytest.raises(EOFError):
         ends.dog.read()
-    ends.dog.say(HEARS)
+    ends.dog.send(HEARS)
 
 
 def test_the_watchdogs_end_is_noticed_in_words(ends: Ends) -> None:
@@ -165,8 +165,8 @@ def test_a_stop_that_cannot_be_read_ends_the_actuator_in_words(ends: Ends, text:
 def test_with_whether_it_hears_the_watchdog_says_whether_it_has_cut_the_outputs(
     ends: Ends, word: bytes
 ) -> None:
-    ends.dog.say(CUT[word])
+    ends.dog.send(CUT[word])
     assert ends.actuator.read() == Words(word == HEARS, cut=True)
-    ends.dog.say(CUT[word])
-    ends.dog.say(word)
+    ends.dog.send(CUT[word])
+    ends.dog.send(word)
     assert ends.actuator.read() == Words(word == HEARS, cut=False)

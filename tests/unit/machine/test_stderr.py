@@ -14,7 +14,7 @@ def test_lines_are_written_in_their_order() -> None:
     ear, mouth = os.pipe()
     writer = LineWriter(mouth)
     for line in ("one", "", "three"):
-        writer.say(line)
+        writer.tell(line)
     writer.flush(1.0)
     assert os.read(ear, 100).split() == [b"one", b"three"]
     os.close(ear)
@@ -26,7 +26,7 @@ def test_a_pipe_that_nobody_reads_holds_up_nobody() -> None:
     writer = LineWriter(mouth)
     began = time.monotonic()
     for _ in range(100 * LINES):
-        writer.say("x" * 100)
+        writer.tell("x" * 100)
     writer.flush(0.0)
     assert time.monotonic() - began < 1.0
     while len(os.read(ear, 65536)) == 65536:  # so that its thread can end
@@ -40,7 +40,7 @@ def test_a_reader_that_is_gone_is_no_error() -> None:
     ear, mouth = os.pipe()
     os.close(ear)
     writer = LineWriter(mouth)
-    writer.say("nobody hears this")
+    writer.tell("nobody hears this")
     writer.flush(1.0)
     os.close(mouth)
 
@@ -48,12 +48,12 @@ def test_a_reader_that_is_gone_is_no_error() -> None:
 def test_all_its_lines_are_written_by_one_thread_that_is_started_once() -> None:
     ear, mouth = os.pipe()
     writer = LineWriter(mouth)
-    writer.say("one")
+    writer.tell("one")
     writer.flush(1.0)
     thread = writer._thread
     before = threading.active_count()
     for _ in range(3):
-        writer.say("more")
+        writer.tell("more")
         writer.flush(1.0)
     assert (writer._thread, threading.active_count()) == (thread, before)
     assert os.read(ear, 100).split() == [b"one", b"more", b"more", b"more"]
@@ -68,7 +68,7 @@ def test_its_thread_is_an_ordinary_one_whoever_speaks_first() -> None:
 
     def speak() -> None:
         os.sched_setscheduler(0, os.SCHED_BATCH, os.sched_param(0))
-        writer.say("first")
+        writer.tell("first")
 
     speaker = threading.Thread(target=speak)
     speaker.start()

@@ -30,7 +30,8 @@ def test_one_that_opened_makes_the_next_as_patient_as_the_first() -> None:
     assert "did not open within 10 s" in watch.judge(PID, is_open=False, now=30.0 + DOOR_START + 1)
 
 
-def test_silence_is_counted_from_the_last_word() -> None:
+def test_silence_is_counted_from_the_last_word(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(vigil, "weigh", lambda pid: 0)
     watch = Vigil()
     watch.hear(1.0, first=True)
     assert watch.judge(PID, is_open=True, now=1.0 + DOOR_SILENCE) == ""

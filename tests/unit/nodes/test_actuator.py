@@ -1,8 +1,7 @@
 from pathlib import Path
 
 import pytest
-from unit.bus.fakes import Clock
-from unit.nodes.fakes import Chip, Node, Shelf
+from unit.nodes.fakes import Shelf
 
 from zteleop.bus.subscription import Received
 from zteleop.bus.topics import TOPICS
@@ -24,6 +23,7 @@ from zteleop.nodes.actuator import (
     UnwatchedError,
 )
 from zteleop.nodes.output import REPAIR_EVERY
+from zteleop.testing import Clock, FakeNode, MemoryChip
 
 NEUTRAL = {0: 1509.6, 1: 1530.0}
 FORWARD = Twist.planar(0.5)
@@ -81,18 +81,19 @@ class Robot:
 
     def __init__(
         self,
-        node: Node,
+        node: FakeNode,
         clock: Clock,
         settings: DriveSettings | None = None,
         *,
-        chip: Chip | None = None,
+        chip: MemoryChip | None = None,
         shelf: Shelf | None = None,
         hears: bool = True,
         health: Health | None = None,
         standing: Standing | None = None,
     ) -> None:
         self.node, self.clock = node, clock
-        self.chip, self.link, self.shelf, self.journal = chip or Chip(), Link(), shelf or Shelf(), Journal()
+        self.chip, self.link = chip or MemoryChip(), Link()
+        self.shelf, self.journal = shelf or Shelf(), Journal()
         self.actuator = Actuator(
             node,
             settings or DriveSettings(),
@@ -113,18 +114,18 @@ class Robot:
 
     @property
     def beat(self) -> Beat:
-        self.node.timers[TOPICS["beat"].every]()
+        self.node.loop.run(TOPICS["beat"].every)
         return self.node.said["beat"].messages[-1]
 
     @property
     def status(self) -> DriveStatus:
-        self.node.timers[TOPICS["beat"].every]()
+        self.node.loop.run(TOPICS["beat"].every)
         return self.node.said["drive_status"].messages[-1]
 
     def hear(self, words: Words | None) -> None:
         """Hear the watchdog; None is its end."""
         self.link.words = words
-        self.node.watched[self.link.fileno()]()
+        self.node.loop.watched[self.link.fileno()]()
 
     def say(
         self, message: Message, source: str = "keyboard", moving: bool = True, proof: Proof | None = None
@@ -133,7 +134,7 @@ class Robot:
         proof = proof or self.prover.prove(self.beat, moving, self.clock.time)
         key = f"robot/archangel/cmd_vel/{source}"
         self.node.inboxes[f"cmd_vel/{source}"].handler(Received(message, key, proof, self.clock.time))
-        self.node.ring(self.clock.time)
+        self.node.loop.ring(self.clock.time)
 
     def stop(self, stop: Stop) -> None:
         self.node.inboxes["stop"].handler(Received(stop, "robot/archangel/stop", None, self.clock.time))
@@ -143,23 +144,23 @@ class Robot:
             self.clock.pass_by(STEP_EVERY)
             if watched:
                 self.hear(Words(None))
-            self.node.timers[STEP_EVERY]()
+            self.node.loop.run(STEP_EVERY)
 
 
 @pytest.fixture
-def robot(node: Node, clock: Clock) -> Robot:
+def robot(node: FakeNode, clock: Clock) -> Robot:
     return Robot(node, clock)
 
 
-def test_it_hears_every_source_it_knows_by_name_and_stops(node: Node, clock: Clock) -> None:
+def test_it_hears_every_source_it_knows_by_name_and_stops(node: FakeNode, clock: Clock) -> None:
     Robot(node, clock, DriveSettings(sources={"nav": Source(10)}))
     commands = {f"{t}/{s}" for t in ("cmd_vel", "pwm") for s in (*SOURCES, "nav")}
     assert set(node.inboxes) == {*commands, "stop"}
     assert node.infos[0] == "obeys archangel"
 
 
-def test_the_chip_starts_at_neutral_and_is_left_at_neutral(node: Node, clock: Clock) -> None:
-    chip, journal = Chip(), Journal()
+def test_the_chip_starts_at_neutral_and_is_left_at_neutral(node: FakeNode, clock: Clock) -> None:
+    chip, journal = MemoryChip(), Journal()
     actuator = Actuator(node, DriveSettings(), chip, Link(), Shelf(), journal)
     assert (chip.log, chip.writes) == (["start", "read"], [NEUTRAL])
 
@@ -174,8 +175,10 @@ def test_the_chip_starts_at_neutral_and_is_left_at_neutral(node: Node, clock: Cl
     assert journal.closed
 
 
-def test_a_chip_that_takes_no_neutral_at_the_end_is_said_and_all_is_closed(node: Node, clock: Clock) -> None:
-    chip, journal, link = Chip(), Journal(), Link()
+def test_a_chip_that_takes_no_neutral_at_the_end_is_said_and_all_is_closed(
+    node: FakeNode, clock: Clock
+) -> None:
+    chip, journal, link = MemoryChip(), Journal(), Link()
     actuator = Actuator(node, DriveSettings(), chip, link, Shelf(), journal)
     chip.broken.add("write")
     with pytest.raises(DeviceError, match="does not take a write"):
@@ -185,8 +188,10 @@ def test_a_chip_that_takes_no_neutral_at_the_end_is_said_and_all_is_closed(node:
     assert link.closed
 
 
-def test_the_watchdog_is_told_of_an_end_before_anything_of_it_can_take_long(node: Node, clock: Clock) -> None:
-    chip, link = Chip(), Link()
+def test_the_watchdog_is_told_of_an_end_before_anything_of_it_can_take_long(
+    node: FakeNode, clock: Clock
+) -> None:
+    chip, link = MemoryChip(), Link()
     actuator = Actuator(node, DriveSettings(), chip, link, Shelf(), Journal())
     write, told = chip.write, []
     chip.write = lambda *values: told.append(link.closed) or write(*values)
@@ -194,7 +199,7 @@ def test_the_watchdog_is_told_of_an_end_before_anything_of_it_can_take_long(node
     assert told == [True]
 
 
-def test_it_starts_only_when_the_watchdog_hears_it(node: Node, clock: Clock) -> None:
+def test_it_starts_only_when_the_watchdog_hears_it(node: FakeNode, clock: Clock) -> None:
     robot = Robot(node, clock, hears=None)
     assert (robot.status.state, robot.status.why) == (
         "starting",
@@ -208,7 +213,7 @@ def test_it_starts_only_when_the_watchdog_hears_it(node: Node, clock: Clock) -> 
     assert robot.status.state == "idle"
 
 
-def test_what_was_begun_before_the_watchdog_heard_it_moves_nothing(node: Node, clock: Clock) -> None:
+def test_what_was_begun_before_the_watchdog_heard_it_moves_nothing(node: FakeNode, clock: Clock) -> None:
     robot = Robot(node, clock, hears=False)
     robot.say(PUSH)
     robot.hear(Words(True))
@@ -256,10 +261,10 @@ def test_whoever_drove_before_it_was_deaf_for_long_begins_anew(robot: Robot) -> 
     assert robot.chip.pulses != NEUTRAL
 
 
-def test_while_the_esc_arms_it_is_starting(node: Node, clock: Clock) -> None:
-    robot = Robot(node, clock, chip=Chip(arming=2.0))
+def test_while_the_esc_arms_it_is_starting(node: FakeNode, clock: Clock) -> None:
+    robot = Robot(node, clock, chip=MemoryChip(arming=2.0))
     assert (robot.status.state, robot.status.why) == ("starting", "neutral for 2 s while the ESC arms")
-    node.timers[TOPICS["why"].every]()
+    node.loop.run(TOPICS["why"].every)
     assert not node.said["vehicle"].messages[-1].ready
     robot.tick(97)
     assert robot.status.state == "starting"
@@ -268,14 +273,16 @@ def test_while_the_esc_arms_it_is_starting(node: Node, clock: Clock) -> None:
     assert node.said["vehicle"].messages[-1].ready
 
 
-def test_one_in_anothers_place_goes_on_with_the_next_act_and_arms_nothing(node: Node, clock: Clock) -> None:
+def test_one_in_anothers_place_goes_on_with_the_next_act_and_arms_nothing(
+    node: FakeNode, clock: Clock
+) -> None:
     now, prover = clock.time, Prover(7)
     prover.act(Beat(5, now - 3.0, 0.0))
     prover.prove(Beat(5, now - 3.0, 0.0), True, 0.0)
     standing = Standing(
         5, now - 9.0, now - 8.0, now - 8.0, list(SOURCES).index("keyboard"), 7, now - 3.0, now - 1.0
     )
-    robot = Robot(node, clock, chip=Chip(arming=2.0), hears=None, standing=standing)
+    robot = Robot(node, clock, chip=MemoryChip(arming=2.0), hears=None, standing=standing)
     assert robot.beat.epoch == 5
     assert (robot.status.state, robot.status.why) == (
         "link lost",
@@ -293,9 +300,9 @@ def test_one_in_anothers_place_goes_on_with_the_next_act_and_arms_nothing(node: 
     assert ("interruption", {"why": "its actuator came late, and was started again"}) in robot.journal.events
 
 
-def test_one_in_the_place_of_another_that_nobody_drove_lets_the_esc_arm(node: Node, clock: Clock) -> None:
+def test_one_in_the_place_of_another_that_nobody_drove_lets_the_esc_arm(node: FakeNode, clock: Clock) -> None:
     standing = Standing(5, *[clock.time - 1.0] * 3)
-    robot = Robot(node, clock, chip=Chip(arming=2.0), standing=standing)
+    robot = Robot(node, clock, chip=MemoryChip(arming=2.0), standing=standing)
     assert (robot.status.state, robot.status.why) == ("starting", "neutral for 2 s while the ESC arms")
 
 
@@ -305,7 +312,7 @@ def test_one_that_nobody_watches_ends_with_a_code_of_its_own(robot: Robot) -> No
     assert ended.value.exit_code == UNWATCHED
 
 
-def test_a_stop_that_was_kept_holds_from_the_start(node: Node, clock: Clock) -> None:
+def test_a_stop_that_was_kept_holds_from_the_start(node: FakeNode, clock: Clock) -> None:
     robot = Robot(node, clock, shelf=Shelf(KEPT))
     robot.say(PUSH)
     assert (robot.status.state, robot.status.stops) == ("stopped", [KEPT])
@@ -365,7 +372,7 @@ def test_a_stop_that_cannot_be_kept_is_tried_again_each_second_and_told(robot: R
     assert (first.stops, first.unkept) == ([KEPT], "they are being written")
     assert (robot.status.unkept, robot.shelf.stops) == ("no space left", [])
     robot.shelf.full = False
-    robot.node.timers[KEEP_EVERY]()
+    robot.node.loop.run(KEEP_EVERY)
     assert (robot.status.unkept, robot.shelf.stops) == ("", [KEPT])
 
 
@@ -374,16 +381,16 @@ def test_a_stop_is_told_with_what_the_chip_shows(robot: Robot) -> None:
     assert robot.status.confirmed == "read"
     robot.chip.broken |= {"read", "write", "start", "check"}
     robot.tick(5)
-    robot.node.timers[CHECK_EVERY]()
+    robot.node.loop.run(CHECK_EVERY)
     assert (robot.status.state, robot.status.confirmed) == ("fault", "")
     robot.hear(Words(True, cut=True))
-    robot.node.timers[TOPICS["beat"].every]()
+    robot.node.loop.run(TOPICS["beat"].every)
     assert robot.status.confirmed == "cut"
     robot.hear(Words(None))
-    robot.node.timers[TOPICS["beat"].every]()
+    robot.node.loop.run(TOPICS["beat"].every)
     assert robot.status.confirmed == "cut", "it said nothing of it"
     robot.hear(Words(False))
-    robot.node.timers[TOPICS["beat"].every]()
+    robot.node.loop.run(TOPICS["beat"].every)
     assert robot.status.confirmed == ""
 
 
@@ -452,17 +459,17 @@ def test_a_chip_that_fails_is_a_fault_until_it_is_repaired_through_neutral(robot
 
 def test_a_chip_that_forgot_its_settings_is_noticed_while_writes_succeed(robot: Robot) -> None:
     robot.chip.broken |= {"check", "start"}
-    robot.node.timers[CHECK_EVERY]()
+    robot.node.loop.run(CHECK_EVERY)
     robot.tick()
     assert robot.status.state == "fault"
 
 
 def test_a_sender_whose_process_is_gone_lets_go_at_once(robot: Robot) -> None:
     robot.say(PUSH)
-    robot.node.leaves(8)
+    robot.node.membership.leaves(8)
     assert robot.chip.pulses != NEUTRAL
-    robot.node.leaves(7)
-    robot.node.ring(robot.clock.time)
+    robot.node.membership.leaves(7)
+    robot.node.loop.ring(robot.clock.time)
     assert robot.chip.pulses == NEUTRAL
     assert (robot.status.state, robot.status.why) == ("link lost", "keyboard is gone")
 
@@ -481,7 +488,7 @@ def test_the_journal_hears_every_command_with_its_verdict(robot: Robot) -> None:
 def test_it_steps_and_tells_on_a_clock(robot: Robot) -> None:
     robot.tick()
     assert robot.chip.writes == [NEUTRAL]
-    robot.node.timers[TOPICS["why"].every]()
+    robot.node.loop.run(TOPICS["why"].every)
     assert robot.node.said["vehicle"].messages[-1].kind == "ackermann"
     assert robot.beat.time == robot.clock.time
 
@@ -503,10 +510,10 @@ def test_a_few_commands_in_a_row_are_answered_at_once_and_then_share_a_step(robo
     for ticks_ in (395, 400):
         robot.say(Pwm(ticks_, 370))
     assert len(robot.chip.writes) == writes + IN_A_ROW
-    (soon,) = robot.node.alarms
+    (soon,) = robot.node.loop.alarms
     assert soon.due == pytest.approx(robot.clock.time + AT_MOST_EVERY, abs=1e-9)
     robot.clock.time = soon.due
-    robot.node.ring(soon.due)
+    robot.node.loop.ring(soon.due)
     assert len(robot.chip.writes) == writes + IN_A_ROW + 1
     assert robot.chip.writes[-1][1] == pytest.approx(400 * 4.08)
 
@@ -524,9 +531,9 @@ def test_a_crowd_that_leaves_is_answered_at_most_200_times_a_second(robot: Robot
     robot.tick()
     robot.chip.writes.clear()
     for number in range(1000):
-        robot.node.leaves(1000 + number)
+        robot.node.membership.leaves(1000 + number)
         robot.clock.pass_by(0.0001)
-        robot.node.ring(robot.clock.time)
+        robot.node.loop.ring(robot.clock.time)
     assert len(robot.chip.writes) <= 0.1 / AT_MOST_EVERY + IN_A_ROW
 
 
@@ -562,7 +569,7 @@ def test_a_refused_command_is_said_with_its_reason(robot: Robot) -> None:
     robot.say(FORWARD, proof=Proof(1, 1, 0, 0.0, 0.0, 0.0))
     assert robot.node.warnings == ["keyboard 0001 is refused: it was made before the robot's last start"]
     assert robot.chip.writes == []
-    assert robot.node.alarms[0].due == float("inf")
+    assert robot.node.loop.alarms[0].due == float("inf")
 
 
 def test_after_a_long_pause_of_its_own_it_begins_a_new_epoch(robot: Robot) -> None:
@@ -602,31 +609,31 @@ def test_after_a_short_one_whoever_drove_goes_on_with_the_next_act_and_not_befor
 def test_a_step_that_is_a_little_late_is_no_pause(robot: Robot) -> None:
     before = robot.beat.epoch
     robot.clock.pass_by(0.19)
-    robot.node.timers[STEP_EVERY]()
+    robot.node.loop.run(STEP_EVERY)
     assert robot.beat.epoch == before
 
 
 def test_every_start_is_an_epoch_that_any_reader_of_json_can_count(robot: Robot, clock: Clock) -> None:
-    other = Robot(Node(), clock)
+    other = Robot(FakeNode(), clock)
     assert robot.beat.epoch != other.beat.epoch
     assert 0 <= robot.beat.epoch < 2**53
 
 
-def test_a_weak_supply_slows_it_down_and_is_told(node: Node, clock: Clock, tmp_path: Path) -> None:
+def test_a_weak_supply_slows_it_down_and_is_told(node: FakeNode, clock: Clock, tmp_path: Path) -> None:
     volt = tmp_path / "class/hwmon/hwmon0"
     volt.mkdir(parents=True)
     (volt / "name").write_text("rpi_volt\n")
     (volt / "in0_lcrit_alarm").write_text("0\n")
     robot = Robot(node, clock, health=Health(tmp_path, node.log))
-    node.timers[LOOK_EVERY]()
+    node.loop.run(LOOK_EVERY)
     assert (robot.status.max_speed, robot.status.slowed) == (3.0, "")
     (volt / "in0_lcrit_alarm").write_text("1\n")
-    node.timers[LOOK_EVERY]()
+    node.loop.run(LOOK_EVERY)
     robot.tick()
     assert robot.status.max_speed == 1.5
     assert "undervoltage" in robot.status.slowed
     assert any("undervoltage" in words for words in node.warnings)
-    node.timers[TOPICS["why"].every]()
+    node.loop.run(TOPICS["why"].every)
     caps = [layer.says for layer in node.said["why"].messages[-1].layers if layer.name == "cap"]
     assert caps == ["1.5 of 3 m/s: the Pi's supply is too low (undervoltage); use a better one"]
 
@@ -635,13 +642,13 @@ def refuse(robot: Robot, times: int) -> None:
     for number in range(times):
         robot.tick(5)
         robot.say(FORWARD, proof=Proof(255, number + 1, 0, 0.0, 0.0, 0.0))
-        robot.node.timers[TOPICS["why"].every]()
+        robot.node.loop.run(TOPICS["why"].every)
 
 
 def test_whoever_is_refused_for_a_while_is_told_and_nobody_else(robot: Robot) -> None:
     told = robot.node.said["refusals"]
     robot.say(PUSH)
-    robot.node.timers[TOPICS["why"].every]()
+    robot.node.loop.run(TOPICS["why"].every)
     refuse(robot, 5)
     assert told.messages == []
     refuse(robot, 3)
@@ -650,12 +657,12 @@ def test_whoever_is_refused_for_a_while_is_told_and_nobody_else(robot: Robot) ->
     assert refused.why == "it was made before the robot's last start"
     assert refused.since > 0.5
     robot.tick(110)
-    robot.node.timers[TOPICS["why"].every]()
+    robot.node.loop.run(TOPICS["why"].every)
     assert told.take() == []
 
 
 def test_who_is_refused_hears_what_keeps_the_robot_at_rest_and_which_stop_was_the_last(
-    node: Node, clock: Clock
+    node: FakeNode, clock: Clock
 ) -> None:
     shelf = Shelf(KEPT)
     shelf.past = 3

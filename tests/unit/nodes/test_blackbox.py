@@ -4,8 +4,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from unit.bus.fakes import Clock
-from unit.nodes.fakes import Node
 
 from zteleop.bus import codec
 from zteleop.bus.tap import Raw
@@ -15,6 +13,7 @@ from zteleop.nodes import blackbox as module
 from zteleop.nodes.blackbox import AFTERMATH, LISTEN_EVERY, PAUSE, BlackBox, Writer
 from zteleop.recording.ring import Ring, Snapshot
 from zteleop.recording.triggers import Trigger
+from zteleop.testing import Clock, FakeNode
 
 
 class Tap:
@@ -50,7 +49,7 @@ class Shelf:
 class Bench:
     """A black box, with the watchdog's end of its pipe."""
 
-    def __init__(self, node: Node, clock: Clock) -> None:
+    def __init__(self, node: FakeNode, clock: Clock) -> None:
         self.node, self.clock, self.tap, self.shelf = node, clock, Tap(clock), Shelf()
         self.ear, self.mouth = os.pipe()
         self.warnings: list[str] = []
@@ -63,11 +62,11 @@ class Bench:
             self.ear,
             self.warnings.append,  # type: ignore[arg-type]
         )
-        node.watch(self.ear, self.box._hear_watchdog)
+        node.loop.watch(self.ear, self.box._hear_watchdog)
         node.every(LISTEN_EVERY)(self.box._listen)
 
     def live(self, seconds: float) -> None:
-        self.node.live(self.clock, seconds)
+        self.node.live(seconds)
 
     def stop(self, number: int = 7) -> None:
         self.tap.say("stop", Stop(engaged=True, id=number, by="ann", why=""))
@@ -77,7 +76,7 @@ class Bench:
         self.box._finish()
 
     def hear_watchdog(self) -> None:
-        self.node.watched[self.ear]()
+        self.node.loop.watched[self.ear]()
 
     def close(self) -> None:
         os.close(self.ear)
@@ -92,7 +91,7 @@ class Bench:
 
 
 @pytest.fixture
-def bench(node: Node, clock: Clock) -> Iterator[Bench]:
+def bench(node: FakeNode, clock: Clock) -> Iterator[Bench]:
     bench = Bench(node, clock)
     yield bench
     bench.close()

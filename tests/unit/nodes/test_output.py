@@ -2,8 +2,6 @@ from itertools import count, pairwise
 from types import SimpleNamespace
 
 import pytest
-from unit.bus.fakes import Clock
-from unit.nodes.fakes import Chip
 
 from zteleop.control.drive import Drive
 from zteleop.control.pace import QUICK_WRITES, SLOW, SLOW_WRITES
@@ -13,6 +11,7 @@ from zteleop.errors import DeviceError
 from zteleop.messages import Beat, Pwm, Stop
 from zteleop.nodes import output as module
 from zteleop.nodes.output import FAILED_STEPS, REPAIR_EVERY, Output
+from zteleop.testing import Clock, MemoryChip
 
 NEUTRAL = {0: 1509.6, 1: 1530.0}
 PULSES = {0: 1509.6, 1: 1600.0}
@@ -23,7 +22,7 @@ class Bench:
 
     def __init__(self, arming: float = 0.0) -> None:
         self.now = 100.0
-        self.chip = Chip(arming)
+        self.chip = MemoryChip(arming)
         self.drive = Drive(DriveSettings(), 4.08, 1, self.now)
         self.said: list[str] = []
         self.output = Output(self.chip, self.drive, self.said.append)
@@ -71,7 +70,7 @@ def test_it_starts_at_neutral_and_writes_what_it_is_told(bench: Bench) -> None:
 
 
 def test_a_chip_that_does_not_come_up_is_an_error() -> None:
-    chip = Chip()
+    chip = MemoryChip()
     chip.broken.add("start")
     output = Output(chip, Drive(DriveSettings(), 4.08, 1, 0.0), print)
     with pytest.raises(DeviceError):
@@ -298,7 +297,7 @@ def test_a_fault_is_not_hidden_by_a_stop(bench: Bench) -> None:
     assert bench.step(REPAIR_EVERY) == "stopped"
 
 
-class SlowChip(Chip):
+class SlowChip(MemoryChip):
     """A chip whose bus takes its time, by the clock of its bench."""
 
     takes = 0.0

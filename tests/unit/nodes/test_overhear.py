@@ -1,5 +1,5 @@
 import pytest
-from unit.nodes.fakes import Node, Shelf
+from unit.nodes.fakes import Shelf
 
 from zteleop.bus.subscription import Received
 from zteleop.control.deadlines import DEAF_AFTER, GRACE
@@ -11,6 +11,7 @@ from zteleop.control.standing import Standing
 from zteleop.machine.stop_file import UNREADABLE
 from zteleop.messages import Beat, Message, Pwm, Stop, String
 from zteleop.nodes.overhear import Overhearing
+from zteleop.testing import FakeNode
 
 PERIOD = 0.02
 PUSH = Pwm(390, 370)
@@ -22,7 +23,7 @@ class Room:
     """A watchdog's ears, a clock, and somebody who talks."""
 
     def __init__(self) -> None:
-        self.now, self.node, self.shelf = 100.0, Node(), Shelf()
+        self.now, self.node, self.shelf = 100.0, FakeNode(), Shelf()
         settings = DriveSettings(sources={"nav": Source(10)})
         self.judge = Judge(settings, 4.08, self.now)
         self.judge.hear_report(Standing(1, *[self.now - 1.0] * 3))
@@ -163,12 +164,12 @@ def test_a_file_that_cannot_be_read_for_a_moment_ends_no_stop(room: Room) -> Non
 def test_stops_that_were_kept_are_known_from_the_beginning() -> None:
     shelf = Shelf(STOP)
     judge = Judge(DriveSettings(), 4.08, 100.0)
-    assert Overhearing(Node(), DriveSettings(), judge, shelf).stops == (STOP,)
+    assert Overhearing(FakeNode(), DriveSettings(), judge, shelf).stops == (STOP,)
 
 
 def test_a_stop_that_was_kept_and_is_gone_at_the_first_look_is_over() -> None:
     shelf = Shelf(STOP)
-    ears = Overhearing(Node(), DriveSettings(), Judge(DriveSettings(), 4.08, 100.0), shelf)
+    ears = Overhearing(FakeNode(), DriveSettings(), Judge(DriveSettings(), 4.08, 100.0), shelf)
     shelf.remove()
     ears.listen(100.02)
     assert ears.stops == ()

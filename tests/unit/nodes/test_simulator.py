@@ -1,18 +1,17 @@
 from pathlib import Path
 
 import pytest
-from unit.bus.fakes import Clock
-from unit.nodes.fakes import Node
 
 from zteleop.bus.topics import TOPICS
 from zteleop.control.settings import DriveSettings
 from zteleop.drivers import open_driver
 from zteleop.nodes import simulator
 from zteleop.nodes.simulator import PERIOD
+from zteleop.testing import Clock, FakeNode
 
 
 def test_the_car_moves_as_its_chip_says_and_tells_where_it_is(
-    node: Node, clock: Clock, tmp_path: Path
+    node: FakeNode, clock: Clock, tmp_path: Path
 ) -> None:
     path = str(tmp_path / "chip")
     driver = open_driver("simulated", {"path": path})
@@ -23,8 +22,8 @@ def test_the_car_moves_as_its_chip_says_and_tells_where_it_is(
             driver.write({0: throttle, 1: 1530.0})
             for _ in range(100):
                 clock.pass_by(PERIOD)
-                node.timers[PERIOD]()
-            node.timers[TOPICS["odom"].every]()
+                node.loop.run(PERIOD)
+            node.loop.run(TOPICS["odom"].every)
     finally:
         driver.close()
     still, moved = node.said["odom"].messages

@@ -1,13 +1,13 @@
 import getpass
 
 import pytest
-from unit.nodes.fakes import Node, Said
 
 from zteleop.bus.lane.wire import Answered
 from zteleop.bus.topics import TOPICS
 from zteleop.control.stop import MERGED, Latch
 from zteleop.messages import Confirmed, DriveStatus, Stop
 from zteleop.nodes.stop_request import ACKNOWLEDGED_WITHIN, REPEAT, SETTLED, Stopping, person
+from zteleop.testing import FakeNode, Said
 
 TICK = 0.01
 
@@ -35,7 +35,7 @@ def shows(
 class Asker:
     """Somebody who asks, and a clock that his test moves."""
 
-    def __init__(self, node: Node, by: str = "ann@desk") -> None:
+    def __init__(self, node: FakeNode, by: str = "ann@desk") -> None:
         self.stopping = Stopping(node, by)
         self.said: Said = node.said["stop"]
         self.now = 100.0
@@ -61,7 +61,7 @@ class Asker:
 
 
 @pytest.fixture
-def asker(node: Node) -> Asker:
+def asker(node: FakeNode) -> Asker:
     return Asker(node)
 
 
@@ -126,7 +126,7 @@ def answer(stop: Stop, confirmed: Confirmed = "read", **others: object) -> Answe
     return Answered(**({"robot": "archangel", "id": stop.id, "held": True, "confirmed": confirmed} | others))
 
 
-def test_a_stop_is_said_on_the_lane_before_there_is_a_bus_and_on_both_afterwards(node: Node) -> None:
+def test_a_stop_is_said_on_the_lane_before_there_is_a_bus_and_on_both_afterwards(node: FakeNode) -> None:
     lane = Lane()
     stopping = Stopping(None, "ann@desk", "archangel", lane)
     stopping.engage(100.0)
@@ -437,13 +437,13 @@ def test_a_release_asked_for_twice_gives_up_when_the_first_does(asker: Asker) ->
     assert asker.stopping.state == "failed"
 
 
-def test_words_no_reader_would_take_do_not_cost_the_stop(node: Node) -> None:
+def test_words_no_reader_would_take_do_not_cost_the_stop(node: FakeNode) -> None:
     stop = Asker(node, by="ann\udcff" + "n" * 300).engage("w" * 300 + "\ud800")
     assert len(stop.by) == len(stop.why) == 200
     (stop.by + stop.why).encode()
 
 
-def test_it_talks_with_the_rule_of_the_robot(node: Node) -> None:
+def test_it_talks_with_the_rule_of_the_robot(node: FakeNode) -> None:
     """Two people and a latch, over a network that loses every other word."""
     ann, bob = Asker(node, "ann@desk"), Asker(node, "bob@sofa")
     latch = Latch()

@@ -1,6 +1,4 @@
 import pytest
-from unit.bus.fakes import Clock
-from unit.nodes.fakes import Node
 
 from zteleop.control.deadlines import LINK_LOSS
 from zteleop.control.mixer import Differential
@@ -14,6 +12,7 @@ from zteleop.messages import DriveStatus, Log, Odometry, Pwm, Stop, Twist, Vehic
 from zteleop.nodes.stop_request import ACKNOWLEDGED_WITHIN, REPEAT
 from zteleop.nodes.teleop import NEWS, PERIOD, SHOW_AFTER, Teleop
 from zteleop.screen.view import View
+from zteleop.testing import Clock, FakeNode
 
 CAR = to_vehicle(DriveSettings(), 4.08)
 SLOW_CAR = to_vehicle(DriveSettings(), 4.1)
@@ -56,7 +55,7 @@ class Device:
 class Desk:
     """One operator at one device."""
 
-    def __init__(self, node: Node, clock: Clock, device: Device, vehicle: Vehicle = CAR) -> None:
+    def __init__(self, node: FakeNode, clock: Clock, device: Device, vehicle: Vehicle = CAR) -> None:
         self.node, self.clock, self.device = node, clock, device
         self.views: list[View] = []
         self.teleop = Teleop(node, device, "keyboard", vehicle, self.views.append)
@@ -78,18 +77,18 @@ class Desk:
         for _ in range(times):
             self.clock.pass_by(PERIOD)
             if beats:
-                self.node.hear(self.clock.time)
+                self.node.hear_beat()
             self.teleop.obey()
-            self.node.ring(self.clock.time + SHOW_AFTER)
+            self.node.loop.ring(self.clock.time + SHOW_AFTER)
 
 
 @pytest.fixture
-def desk(node: Node, clock: Clock) -> Desk:
+def desk(node: FakeNode, clock: Clock) -> Desk:
     return Desk(node, clock, Device())
 
 
 @pytest.fixture
-def steps(node: Node, clock: Clock) -> Desk:
+def steps(node: FakeNode, clock: Clock) -> Desk:
     return Desk(node, clock, Device("step"))
 
 
@@ -178,7 +177,7 @@ def test_only_what_the_operator_does_is_an_act(desk: Desk) -> None:
 def test_a_robot_that_started_anew_finds_the_device_at_rest(desk: Desk, clock: Clock) -> None:
     desk.tick(3)
     desk.device.resets.clear()
-    desk.node.hear(clock.time, epoch=2)
+    desk.node.hear_beat(epoch=2)
     desk.teleop.obey()
     assert desk.device.resets == [clock.time]
     desk.tick(0)
@@ -202,13 +201,13 @@ def test_what_was_held_when_the_robot_restarted_is_not_said(desk: Desk, clock: C
     desk.tick(3)
     desk.twists.take()
     desk.device.reset = lambda now: setattr(desk.device, "position", Stick())
-    desk.node.hear(clock.time, epoch=2)
+    desk.node.hear_beat(epoch=2)
     desk.teleop.obey()
     assert [said.twist for said in desk.twists.take()] == [Twist.planar()]
 
 
 def test_another_calibration_is_learnt_once(steps: Desk, clock: Clock) -> None:
-    steps.node.hear(clock.time, vehicle=SLOW_CAR)
+    steps.node.hear_beat(vehicle=SLOW_CAR)
     steps.tick(3)
     assert steps.device.fitted == [CAR, SLOW_CAR]
     steps.device.position = Stick(1.0, 0.0, deadman=True)
@@ -219,13 +218,15 @@ def test_another_calibration_is_learnt_once(steps: Desk, clock: Clock) -> None:
 def test_run_obeys_on_a_clock_and_whenever_the_device_can_be_read(desk: Desk) -> None:
     desk.device.file = 7
     desk.teleop.run()
-    assert desk.node.timers == {PERIOD: desk.teleop.obey}
-    assert desk.node.watched == {7: desk.teleop.obey}
+    assert [(timer.period, timer.action) for timer in desk.node.loop.timers if timer.period] == [
+        (PERIOD, desk.teleop.obey)
+    ]
+    assert desk.node.loop.watched == {7: desk.teleop.obey}
 
 
 def test_a_device_without_a_file_is_not_watched(desk: Desk) -> None:
     desk.teleop.run()
-    assert desk.node.watched == {}
+    assert desk.node.loop.watched == {}
 
 
 @pytest.mark.parametrize("ending", [KeyboardInterrupt, SystemExit, ZeroDivisionError, None])
@@ -264,7 +265,7 @@ def test_a_robot_that_comes_back_as_another_kind_is_not_driven_and_said_why(
 ) -> None:
     steps.tick(3)
     steps.pwms.take()
-    steps.node.hear(clock.time, epoch=2, vehicle=TANK)
+    steps.node.hear_beat(epoch=2, vehicle=TANK)
     steps.teleop.obey()
     assert steps.pwms.take() == []
     assert "cannot be driven like this: driving in steps needs" in steps.node.warnings[-1]
@@ -436,7 +437,7 @@ def test_what_was_typed_while_the_process_stood_still_is_dropped(desk: Desk, clo
     desk.tick(3)
     desk.device.resets.clear()
     clock.pass_by(0.6)
-    desk.node.hear(clock.time)
+    desk.node.hear_beat()
     desk.teleop.obey()
     assert desk.device.resets == [clock.time]
     desk.tick(3)

@@ -4,8 +4,7 @@ from itertools import pairwise
 from types import SimpleNamespace
 
 import pytest
-from unit.bus.fakes import Clock
-from unit.nodes.fakes import Chip, Node, Shelf
+from unit.nodes.fakes import Shelf
 
 from zteleop.bus.lane.wire import Answered, Asked
 from zteleop.bus.subscription import Received
@@ -22,6 +21,7 @@ from zteleop.messages import Beat, Message, Pwm, Stop, WatchdogStatus
 from zteleop.nodes import watchdog as module
 from zteleop.nodes.hand import MISSES, YIELD
 from zteleop.nodes.watchdog import ENDS_WITHIN, LOOK_EVERY, RESTS_WITHIN, Watchdog
+from zteleop.testing import Clock, FakeNode, MemoryChip
 
 NEUTRAL = {0: 1509.6, 1: 1530.0}
 MOVING = {0: 1600.0, 1: 1530.0}
@@ -31,7 +31,7 @@ FILE = 9
 EPOCH = 1
 
 
-def turn_deaf(hand: Chip) -> None:
+def turn_deaf(hand: MemoryChip) -> None:
     """Let a chip that moves take nothing more."""
     hand.pulses = dict(MOVING)
     hand.broken |= {"write", "start"}
@@ -40,7 +40,7 @@ def turn_deaf(hand: Chip) -> None:
 class Child:
     """An actuator that reports a step every 20 ms while it lives and is not frozen."""
 
-    def __init__(self, clock: Clock, hand: Chip) -> None:
+    def __init__(self, clock: Clock, hand: MemoryChip) -> None:
         self.clock, self.hand = clock, hand
         self.starts, self.started = 0, float("-inf")
         self.newest: Report | None = None
@@ -78,7 +78,7 @@ class Child:
         self.starts, self.started, self.newest = self.starts + 1, now, None
         self.stopped_since = None
         self.alive, self.dead = True, False
-        self.link = SimpleNamespace(fileno=lambda: FILE, say=self.words.append, stop=self.stops.append)
+        self.link = SimpleNamespace(fileno=lambda: FILE, send=self.words.append, stop=self.stops.append)
         self.log.append("start")
 
     def hear(self, now: float) -> None:
@@ -124,9 +124,9 @@ class Lane:
 class Kennel:
     """A watchdog, what it watches, and the time."""
 
-    def __init__(self, node: Node, clock: Clock) -> None:
+    def __init__(self, node: FakeNode, clock: Clock) -> None:
         self.node, self.clock = node, clock
-        self.hand, self.shelf = Chip(), Shelf()
+        self.hand, self.shelf = MemoryChip(), Shelf()
         self.hand.pulses = dict(NEUTRAL)
         self.child = Child(clock, self.hand)
         self.enabled: list[bool] = []
@@ -157,11 +157,11 @@ class Kennel:
                 self.hear("beat", Beat(EPOCH, self.clock.time, 0.0))
             if self.child.alive and self.child.moves:
                 self.hand.pulses = dict(MOVING)
-            self.node.live(self.clock, STEP_EVERY)
+            self.node.live(STEP_EVERY)
 
     def hear_actuator(self) -> None:
-        if FILE in self.node.watched:
-            self.node.watched[FILE]()
+        if FILE in self.node.loop.watched:
+            self.node.loop.watched[FILE]()
 
     def hear(self, topic: str, message: Message) -> None:
         """Hear a message; a command is one that moves, by somebody who acts."""
@@ -191,7 +191,7 @@ class Kennel:
 
     @property
     def status(self) -> WatchdogStatus:
-        self.node.timers[TOPICS["watchdog"].every]()
+        self.node.loop.run(TOPICS["watchdog"].every)
         return self.node.said["watchdog"].messages[-1]
 
 
@@ -212,7 +212,7 @@ def handlers(monkeypatch: pytest.MonkeyPatch) -> dict[int, object]:
 
 @pytest.fixture
 def kennel(
-    node: Node,
+    node: FakeNode,
     clock: Clock,
     told: list[str],
     handlers: dict[int, object],
@@ -256,7 +256,7 @@ def test_one_that_is_late_all_the_time_hears_silence_all_the_same(awake: Kennel)
     began = awake.clock.time
     while not awake.resting and awake.clock.time < began + 5.0:
         awake.clock.pass_by(LATE_STEP + 0.01)
-        awake.node.live(awake.clock, 2 * STEP_EVERY)
+        awake.node.live(2 * STEP_EVERY)
     assert awake.clock.time - began <= 2 * ACTUATOR_SILENCE + LATE_STEP
     assert awake.hand.pulses == NEUTRAL
 
@@ -322,13 +322,13 @@ def test_an_actuator_that_ends_is_noticed_at_once_and_neutral_comes_first(awake:
     assert awake.node.errors == [
         "the actuator is gone: it ended; the chip is kept at rest and another starts"
     ]
-    assert FILE not in awake.node.watched
+    assert FILE not in awake.node.loop.watched
 
 
 def test_after_a_pause_of_its_own_it_listens_before_it_judges(awake: Kennel) -> None:
     """Both were stopped; the actuator must not be killed for a silence that nobody could hear."""
     awake.clock.pass_by(3.0)
-    awake.node.live(awake.clock, 0.1)
+    awake.node.live(0.1)
     assert not awake.resting
     awake.live(1.0)
     assert awake.child.starts == 1

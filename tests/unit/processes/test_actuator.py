@@ -7,7 +7,6 @@ from typing import Any
 
 import msgspec
 import pytest
-from unit.nodes.fakes import Node
 
 from zteleop.bus.settings import BusSettings
 from zteleop.config import Config
@@ -15,6 +14,7 @@ from zteleop.control.standing import Standing
 from zteleop.errors import ConfigError, DeviceError
 from zteleop.machine import link
 from zteleop.processes import PROGRAMS, actuator
+from zteleop.testing import FakeNode
 
 
 @pytest.fixture
@@ -23,8 +23,8 @@ def made(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> dict[str, Any]:
     made: dict[str, Any] = {}
 
     @contextmanager
-    def join(name: str, robot: str, bus: BusSettings) -> Iterator[Node]:
-        made.update(name=name, bus=bus, node=Node(robot))
+    def join(name: str, robot: str, bus: BusSettings) -> Iterator[FakeNode]:
+        made.update(name=name, bus=bus, node=FakeNode(name, robot))
         yield made["node"]
         made["left"] = True
 

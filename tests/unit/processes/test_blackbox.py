@@ -8,13 +8,13 @@ from typing import Any
 
 import msgspec
 import pytest
-from unit.nodes.fakes import Node
 
 from zteleop.bus.settings import BusSettings
 from zteleop.config import Config
 from zteleop.machine import signals
 from zteleop.processes import blackbox
 from zteleop.recording.ring import TOPICS_AT_MOST
+from zteleop.testing import FakeNode
 
 SETTINGS = Config(robot="archangel", bus=BusSettings(mode="client", connect=["door//tmp/x/door"]))
 
@@ -28,7 +28,7 @@ def made(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> dict[str, Any]:
     def join(name: str, robot: str, session: str) -> Iterator[Any]:
         assert (session, made["tapped"]) == ("session", True), "who sees it there counts on being heard"
         made["held"] = signal.pthread_sigmask(signal.SIG_BLOCK, [])
-        made.update(name=name, node=Node(robot))
+        made.update(name=name, node=FakeNode(name, robot))
         yield made["node"]
         made["left"] = True
 

@@ -29,7 +29,7 @@ def join(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Any]:
             node = Node(*arguments, **options)
             node.warnings = []
             monkeypatch.setattr(node.log, "warn", node.warnings.append)
-            monkeypatch.setattr(node, "until", lambda look, seconds: speaks)
+            monkeypatch.setattr(node.membership, "until", lambda look, seconds: speaks)
             return node
 
         monkeypatch.setattr(watchdog, "Node", node)

@@ -3,10 +3,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from unit.bus.fakes import Clock
 
 from zteleop.messages import Pwm, Twist
 from zteleop.recording.journal import ACTS, SENDERS, Detail, Journal
+from zteleop.testing import Clock
 
 FORWARD = Twist.planar(0.5)
 KEYBOARD, OTHER = 0xC0FFEE, 0xBEEF

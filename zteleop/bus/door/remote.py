@@ -214,7 +214,7 @@ class Remote:
     def _knock_again(self) -> None:
         """Try to join a little later: a loop is woken only by a door that it has joined."""
         if self._knock and not self.closed:
-            self._knock.due = clock.now() + KNOCK_EVERY
+            self._knock.ring_at(clock.now() + KNOCK_EVERY)
 
     def _watch(self) -> None:
         if self._loop and self._wire:

@@ -1,0 +1,53 @@
+"""A drive as it stood at one step, for whoever tells of it."""
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from zteleop.control.calibration import Calibration
+from zteleop.control.drive import Drive, Step
+from zteleop.control.hold import Hold
+from zteleop.control.mux import Claim
+from zteleop.control.refusals import Refused
+from zteleop.control.settings import DriveSettings
+
+RECENT = 10.0
+"""s for which a refusal is worth a sentence."""
+
+
+class Snapshot(NamedTuple):
+    """All of a drive that a sentence needs, as it was at one step."""
+
+    settings: DriveSettings
+    calibration: Calibration
+    step: Step
+    claims: list[Claim]
+    """that count, whoever of them drives"""
+    refused: Mapping[str, Refused]
+    """lately, by source"""
+    holds: Sequence[Hold]
+    stopped: bool
+    foreign: bool
+    """whoever drives cannot prove how old its commands are"""
+    top: float
+    """m/s that the vehicle can do"""
+    strain: str
+    """why its machine must spare it, where it must"""
+    now: float
+
+
+def snapshot(drive: Drive, step: Step, now: float) -> Snapshot:
+    """Return how a drive stands at a step."""
+    heard, cap = drive.admission, drive.movement.cap
+    return Snapshot(
+        settings=drive.settings,
+        calibration=drive.calibration,
+        step=step,
+        claims=[claim for claim in heard.mux.claims if not heard.silences.silent(claim, now)],
+        refused=heard.refusals.recent(now, RECENT),
+        holds=heard.holds.in_order,
+        stopped=bool(heard.latch.stops),
+        foreign=step.claim is not None and heard.foreign.includes(step.claim),
+        top=cap.top,
+        strain=cap.strain.why,
+        now=now,
+    )

@@ -1,0 +1,16 @@
+"""Robots in tests: a node without a bus, a chip without wires, and time that passes when a test says so.
+
+from zteleop.testing import FakeNode
+
+node = FakeNode(robot="archangel")
+turn_in_circles(node)               # what the program does with its node
+node.live(3.0)                      # three seconds of its timers, at once
+assert len(node.said["cmd_vel"].messages) == 3
+"""
+
+from zteleop.testing.chip import MemoryChip
+from zteleop.testing.clock import Clock
+from zteleop.testing.link import Link
+from zteleop.testing.node import FakeNode, Inbox, Said
+
+__all__ = ["Clock", "FakeNode", "Inbox", "Link", "MemoryChip", "Said"]
