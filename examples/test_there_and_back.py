@@ -42,7 +42,7 @@ def test_until_it_knows_where_it_is_it_drives_ahead() -> None:
 
 @pytest.mark.parametrize("link", [Link(drop=2), Link(repeat=2), Link(swap=4)])
 def test_a_bad_link_does_not_keep_it_from_turning_back(link: Link[Odometry]) -> None:
-    places = [n / 10 for n in (*range(13), *range(12, -1, -1))]
+    places = [n / 10 for n in (*range(13), *range(12, -1, -1), 0)]
     node = FakeNode(link=link)
     assert min(drive(node, *places)) == -SPEED
     assert node.stopped
