@@ -20,6 +20,8 @@ LASTS, AFTER = 8.0, 2.0
 """s of an attack, and s after its end in which it must be driven again"""
 STOP_AT = (0.3, 4.0)
 """s into an attack at which somebody stops the robot from a fresh process"""
+PROCESSES, STEADY_MB = 4, 0.2
+"""of a robot that has started, and what it still takes in a second then"""
 LOOK = 0.002
 PATIENCE = 30.0
 DRIVE = "{linear: {x: 0.5}}"
@@ -84,11 +86,17 @@ def memory_mb(robot: Robot) -> float:
 
 
 def driving(robot: Robot) -> None:
-    """Let a program drive it 20 times a second, whatever happens."""
+    """Let a program drive it 20 times a second, whatever happens, and wait until all of it has started."""
     robot.start("pub", "cmd_vel", "Twist", DRIVE, "-r", "20", "--connect", robot.endpoint)
     if until(robot, True, PATIENCE) is None:
         raise SystemExit("nobody can drive this robot")
-    time.sleep(0.5)
+    give_up = time.monotonic() + PATIENCE
+    before, after = 0.0, memory_mb(robot)
+    while len(processes(robot)) < PROCESSES or after - before > STEADY_MB:
+        if time.monotonic() > give_up:
+            raise SystemExit("this robot does not come to rest")
+        time.sleep(1.0)
+        before, after = after, memory_mb(robot)
 
 
 def drive_through(attack: str) -> Driven:

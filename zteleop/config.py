@@ -2,7 +2,6 @@
 
 import contextlib
 import os
-import secrets
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, Literal
@@ -119,11 +118,15 @@ def _kept_name(file: Path) -> str:
     return robot_name(file.read_text().strip())
 
 
+def _new_name() -> str:
+    return f"car-{os.urandom(2).hex()}"
+
+
 def _make_name(file: Path) -> str:
     """Keep a new name; of two processes that start at once, both get the same."""
     file.parent.mkdir(parents=True, exist_ok=True)
     new = file.with_name(f"robot.{os.getpid()}")
-    new.write_text(f"car-{secrets.token_hex(2)}\n")
+    new.write_text(f"{_new_name()}\n")
     if file.exists():  # and holds no name
         new.replace(file)
     with contextlib.suppress(FileExistsError, FileNotFoundError):

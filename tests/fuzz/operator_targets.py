@@ -19,6 +19,7 @@ from zteleop.inputs.keymap import DIRECTIONS, bindings
 from zteleop.interfaces.values import fill
 from zteleop.messages import MESSAGES
 from zteleop.terminal.keys import KeyParser
+from zteleop.testing import FakeTerminal
 from zteleop.text import yaml_text
 
 DRIVE_ACTIONS = {*ACTIONS, *DIRECTIONS}
@@ -34,29 +35,10 @@ def keys(data: bytes) -> None:
     assert parser.feed(b"q") == ["q"]
 
 
-class Terminal:
-    """A terminal on which somebody types what the fuzzer says."""
-
-    resumed = 0
-
-    def __init__(self) -> None:
-        self.typed = b""
-
-    def read(self) -> bytes:
-        typed, self.typed = self.typed, b""
-        return typed
-
-    def redraw(self) -> None:
-        pass
-
-    def suspend(self) -> None:
-        self.resumed += 1
-
-
 def keyboard(data: bytes) -> None:
     """Drive with a terminal's bytes, in pieces, on either way to drive."""
     for drive in ("step", "hold"):
-        terminal, now = Terminal(), 100.0
+        terminal, now = FakeTerminal(), 100.0
         device = Keyboard(drive, terminal=terminal)  # type: ignore[arg-type]
         device.fit(to_vehicle(Config().drive, 4.08))
         for at in range(0, len(data), 7):
@@ -83,7 +65,7 @@ def keymap(data: bytes) -> None:
             safe(printable(str(error)))
             return
         assert set(found.values()) <= DRIVE_ACTIONS
-        device = Keyboard(keys=wanted, terminal=Terminal())  # type: ignore[arg-type]
+        device = Keyboard(keys=wanted, terminal=FakeTerminal())  # type: ignore[arg-type]
         for key in found:
             device._press(key)
 

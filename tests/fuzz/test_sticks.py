@@ -13,6 +13,7 @@ from zteleop.control.settings import DriveSettings
 from zteleop.control.stick import to_pwm, to_twist
 from zteleop.inputs.keyboard import Keyboard
 from zteleop.inputs.levers import Steps
+from zteleop.testing import FakeTerminal
 
 CAR = to_vehicle(DriveSettings(), 4.08)
 REVERSED = to_vehicle(
@@ -32,22 +33,6 @@ PRESSES = st.lists(
 )
 
 
-class Terminal:
-    """A terminal whose keys are what the test says."""
-
-    resumed = 0
-
-    def __init__(self) -> None:
-        self.typed = b""
-
-    def read(self) -> bytes:
-        typed, self.typed = self.typed, b""
-        return typed
-
-    def redraw(self) -> None:
-        pass
-
-
 @settings(max_examples=300, deadline=None)
 @given(
     st.sampled_from(["step", "hold"]),
@@ -59,7 +44,7 @@ def test_any_keys_are_a_stick_in_range(
     drive: Literal["step", "hold"], vehicle: object, step: int, presses: list[tuple[bytes, float, int]]
 ) -> None:
     vehicle = CAR if drive == "step" and vehicle is TANK else vehicle
-    terminal, now = Terminal(), 100.0
+    terminal, now = FakeTerminal(), 100.0
     keyboard = Keyboard(drive, steps=Steps(step, step), terminal=terminal)
     keyboard.fit(vehicle)
     for key, wait, times in presses:

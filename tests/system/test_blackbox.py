@@ -24,7 +24,7 @@ PATIENT: dict[str, Any] = {"congestion_control": zenoh.CongestionControl.BLOCK}
 """else zenoh drops what does not leave within a millisecond: 50 kB beside busy loops once in forty times"""
 
 
-class Bench:
+class Accident:
     """A robot whose black box listens, and somebody who can drive it."""
 
     def __init__(self, rig: Rig) -> None:
@@ -65,8 +65,8 @@ class Bench:
 
 
 @pytest.fixture
-def bench(rig: Rig) -> Bench:
-    return Bench(rig)
+def bench(rig: Rig) -> Accident:
+    return Accident(rig)
 
 
 def in_order(text: str, *facts: str) -> None:
@@ -78,7 +78,7 @@ def in_order(text: str, *facts: str) -> None:
         place = found
 
 
-def test_a_sender_that_falls_silent_is_told_with_all_that_it_did(bench: Bench) -> None:
+def test_a_sender_that_falls_silent_is_told_with_all_that_it_did(bench: Accident) -> None:
     bench.drive()
     header, *lines = bench.file("link-lost")
     assert (header["robot"], header["why"]) == (bench.rig.robot, "keyboard has been silent for 0.3 s")
@@ -100,7 +100,7 @@ def test_a_sender_that_falls_silent_is_told_with_all_that_it_did(bench: Bench) -
     )
 
 
-def test_a_stop_is_told_with_who_and_why(bench: Bench) -> None:
+def test_a_stop_is_told_with_who_and_why(bench: Accident) -> None:
     with repeating(lambda: bench.pwm.publish(FORWARD), RATE):
         until(lambda: bench.rig.ticks == DRIVEN, "the command on the chip")
         bench.rig.result("stop", "--why", "a child", *bench.rig.bus_options())
@@ -114,7 +114,7 @@ def test_a_stop_is_told_with_who_and_why(bench: Bench) -> None:
     assert "stopped: stopped by " in told
 
 
-def test_an_actuator_that_is_killed_is_told(bench: Bench) -> None:
+def test_an_actuator_that_is_killed_is_told(bench: Accident) -> None:
     actuator = bench.watchdog.child
     assert actuator
     bench.drive(0.1)
@@ -124,7 +124,7 @@ def test_an_actuator_that_is_killed_is_told(bench: Bench) -> None:
 
 
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGSEGV])
-def test_a_watchdog_that_dies_is_told(bench: Bench, number: int) -> None:
+def test_a_watchdog_that_dies_is_told(bench: Accident, number: int) -> None:
     recorder = bench.recorder
     with repeating(lambda: bench.pwm.publish(FORWARD), RATE):
         until(lambda: bench.rig.ticks == DRIVEN, "the command on the chip")
@@ -134,7 +134,7 @@ def test_a_watchdog_that_dies_is_told(bench: Bench, number: int) -> None:
     until(lambda: not Path(f"/proc/{recorder}").exists(), "the end of the black box")
 
 
-def test_a_robot_that_is_told_to_end_writes_nothing_and_leaves_nobody(bench: Bench) -> None:
+def test_a_robot_that_is_told_to_end_writes_nothing_and_leaves_nobody(bench: Accident) -> None:
     recorder = bench.recorder
     bench.watchdog.signal(signal.SIGTERM)
     assert bench.watchdog.ends() == 128 + signal.SIGTERM
@@ -142,14 +142,14 @@ def test_a_robot_that_is_told_to_end_writes_nothing_and_leaves_nobody(bench: Ben
     assert not bench.folder.exists()
 
 
-def test_a_robot_that_is_told_to_end_soon_after_a_stop_writes_first(bench: Bench) -> None:
+def test_a_robot_that_is_told_to_end_soon_after_a_stop_writes_first(bench: Accident) -> None:
     bench.rig.result("stop", *bench.rig.bus_options())
     bench.watchdog.signal(signal.SIGTERM)
     assert bench.watchdog.ends() == 128 + signal.SIGTERM
     assert len(bench.files("stop")) == 1
 
 
-def test_under_systemd_a_watchdogs_death_ends_both_and_is_told(bench: Bench) -> None:
+def test_under_systemd_a_watchdogs_death_ends_both_and_is_told(bench: Accident) -> None:
     """The signal to end follows at once on the death that is the reason."""
     recorder = bench.recorder
     bench.watchdog.signal(signal.SIGKILL)
@@ -158,7 +158,7 @@ def test_under_systemd_a_watchdogs_death_ends_both_and_is_told(bench: Bench) -> 
     bench.file("watchdog-ended")
 
 
-def test_a_place_that_cannot_be_written_is_told_once_and_the_robot_drives_on(bench: Bench) -> None:
+def test_a_place_that_cannot_be_written_is_told_once_and_the_robot_drives_on(bench: Accident) -> None:
     bench.folder.parent.mkdir(parents=True, exist_ok=True)
     bench.folder.write_text("somebody's file")
     bench.rig.result("stop", *bench.rig.bus_options())
@@ -172,7 +172,7 @@ def test_a_place_that_cannot_be_written_is_told_once_and_the_robot_drives_on(ben
 
 
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGSTOP])
-def test_a_black_box_that_dies_or_stands_still_harms_nobody(bench: Bench, number: int) -> None:
+def test_a_black_box_that_dies_or_stands_still_harms_nobody(bench: Accident, number: int) -> None:
     recorder = bench.recorder
     with repeating(lambda: bench.pwm.publish(FORWARD), RATE):
         until(lambda: bench.rig.ticks == DRIVEN, "the command on the chip")
@@ -183,7 +183,7 @@ def test_a_black_box_that_dies_or_stands_still_harms_nobody(bench: Bench, number
             until(lambda: bench.recorder not in (0, recorder), "another black box")
 
 
-def test_a_black_box_that_stands_still_holds_up_no_command_behind_what_must_arrive(bench: Bench) -> None:
+def test_a_black_box_that_stands_still_holds_up_no_command_behind_what_must_arrive(bench: Accident) -> None:
     """What may not be dropped waits for who does not take it, and in the watchdog all waits with it."""
     session = bench.rig.session()
     junk = session.declare_publisher(f"robot/{bench.rig.robot}/junk", **PATIENT)
@@ -220,7 +220,7 @@ HOSTILE: dict[str, Callable[[Any, str], object]] = {
 }
 
 
-def test_whatever_is_said_it_is_told_and_nobody_dies(bench: Bench) -> None:
+def test_whatever_is_said_it_is_told_and_nobody_dies(bench: Accident) -> None:
     recorder = bench.recorder
     node = bench.rig.node("odd")
     odd = node.publisher("odd", String)

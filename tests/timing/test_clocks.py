@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 from faults.clocks import Clocks
-from faults.link.bench import Bench
+from faults.link.bench import LinkBench
 from faults.link.network import Network, obstacle
 from verdict import Deadline, excusable
 
@@ -38,7 +38,7 @@ SILENCE = 0.45
 class Sleepers:
     """Both machines, each with clocks of its own."""
 
-    def __init__(self, bench: Bench, robot: Clocks, operator: Clocks) -> None:
+    def __init__(self, bench: LinkBench, robot: Clocks, operator: Clocks) -> None:
         self.bench, self.robot, self.operator = bench, robot, operator
 
     def drive_undisturbed(self) -> None:
@@ -75,7 +75,7 @@ def options() -> list[str]:
 def both(tmp_path: Path, options: list[str]) -> Iterator[Sleepers]:
     robot, operator = Clocks(tmp_path, "robot"), Clocks(tmp_path, "operator")
     clocks = {"robot": robot.environment, "operator": operator.environment}
-    with Network() as network, Bench(network, tmp_path, clocks=clocks, operator=options) as bench:
+    with Network() as network, LinkBench(network, tmp_path, clocks=clocks, operator=options) as bench:
         time.sleep(0.2)
         yield Sleepers(bench, robot, operator)
 
@@ -94,7 +94,7 @@ def test_who_joins_with_a_wrong_time_of_day_drives(tmp_path: Path, day: float) -
     robot, operator = Clocks(tmp_path, "robot"), Clocks(tmp_path, "operator")
     operator.set(day=day)
     clocks = {"robot": robot.environment, "operator": operator.environment}
-    with Network() as network, Bench(network, tmp_path, clocks=clocks) as bench:
+    with Network() as network, LinkBench(network, tmp_path, clocks=clocks) as bench:
         both = Sleepers(bench, robot, operator)
         both.drive_undisturbed()
         both.nothing_went_wrong()

@@ -6,7 +6,7 @@ import time
 from pathlib import Path
 
 import pytest
-from faults.link.bench import Bench
+from faults.link.bench import LinkBench
 from faults.link.faults import FAULTS, LinkFault
 from faults.link.network import DEAD, SOUND, Network, obstacle
 from faults.link.trial import attempt
@@ -37,7 +37,7 @@ def test_whatever_the_link_does_nothing_old_moves_the_robot(tmp_path: Path, faul
 
 
 def test_whoever_drives_is_not_disturbed_by_another_whose_cable_is_cut(tmp_path: Path) -> None:
-    with Network() as network, Bench(network, tmp_path) as bench:
+    with Network() as network, LinkBench(network, tmp_path) as bench:
         command = [sys.executable, "-m", "faults.link.sender", bench.rig.robot, bench.rig.endpoint]
         other = bench.rig.start(network.robot, command, bench.rig.environment)
         other.says("heard")

@@ -211,8 +211,8 @@ def test_a_robot_gets_a_name_of_its_own_and_keeps_it(home: Path) -> None:
 
 
 def test_two_robots_have_two_names(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    numbers = iter(["0001", "0002"])
-    monkeypatch.setattr(config.secrets, "token_hex", lambda size: next(numbers))
+    numbers = iter([b"\0\1", b"\0\2"])
+    monkeypatch.setattr(config.os, "urandom", lambda size: next(numbers))
     names = []
     for folder in ("one", "two"):
         monkeypatch.setenv("XDG_STATE_HOME", str(home / folder))

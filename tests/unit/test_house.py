@@ -14,7 +14,6 @@ from zteleop.processes import PROGRAMS
 
 ROOT = Path(__file__).parents[2]
 SOURCES = sorted((ROOT / "zteleop").rglob("*.py"))
-TREES = {path: ast.parse(path.read_text()) for path in SOURCES}
 
 
 def test_imports_keep_every_contract(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -71,30 +70,35 @@ def test_what_a_page_points_to_is_there(page: str) -> None:
     assert [place for place in places if not (ROOT / "zteleop" / place).exists()] == []
 
 
-def test_functions_are_short() -> None:
+@pytest.fixture(scope="module")
+def nodes() -> list[tuple[Path, ast.AST]]:
+    """Return all that the package is made of, and where it stands."""
+    return [(path, node) for path in SOURCES for node in ast.walk(ast.parse(path.read_text()))]
+
+
+def test_functions_are_short(nodes: list[tuple[Path, ast.AST]]) -> None:
     lengths = [
         node.end_lineno - node.lineno + 1
-        for path, tree in TREES.items()
-        for node in ast.walk(tree)
+        for _, node in nodes
         if isinstance(node, ast.FunctionDef) and node.end_lineno
     ]
     assert median(lengths) <= 6
     assert quantiles(lengths, n=10)[-1] <= 14
 
 
-def test_no_class_holds_more_than_fits_into_a_head() -> None:
+def test_no_class_holds_more_than_fits_into_a_head(nodes: list[tuple[Path, ast.AST]]) -> None:
     """What ROS says in one message, and what a status tells, is as long as it is."""
-    own = [tree for path, tree in TREES.items() if path.parent.name != "messages"]
-    classes = [node for tree in own for node in ast.walk(tree) if isinstance(node, ast.ClassDef)]
-    assert {node.name: len(fields(node)) for node in classes if len(fields(node)) > 14} == {}
+    classes = [
+        node for path, node in nodes if isinstance(node, ast.ClassDef) and path.parent.name != "messages"
+    ]
+    assert {node.name: len(held) for node in classes if len(held := fields(node)) > 14} == {}
 
 
-def test_constructors_name_one_attribute_a_line() -> None:
+def test_constructors_name_one_attribute_a_line(nodes: list[tuple[Path, ast.AST]]) -> None:
     """But for pairs that come from one call."""
     crowded = [
         f"{path.relative_to(ROOT)}:{assign.lineno}"
-        for path, tree in TREES.items()
-        for function in ast.walk(tree)
+        for path, function in nodes
         if isinstance(function, ast.FunctionDef) and function.name == "__init__"
         for assign in ast.walk(function)
         if isinstance(assign, ast.Assign) and len(attributes(assign)) > 1 and not is_one_call(assign)

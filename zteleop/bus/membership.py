@@ -19,7 +19,12 @@ _GLANCE = 0.01
 
 
 class Membership:
-    """One node's, from `with` to `close`; `complain` hears of what is no message."""
+    """One node's, from its construction to `close`; `complain` hears of what is no message.
+
+    Whoever commands proves which beat it had heard when it decided. So the robots are listened to before
+    each handler and each `publish`, but not within a handler: what that decides, it decided on what was
+    heard before it began.
+    """
 
     def __init__(
         self, node: str, robot: str | None, session: Session, complain: Callable[[str], None]
@@ -37,32 +42,32 @@ class Membership:
     def close(self) -> None:
         """Leave the bus: others see this node go, and its threads end."""
         self._closed = True
-        self.session.close()
+        self.session.close()  # first: it is what ends the waiting of the deliveries
         for delivery in self._deliveries:
             delivery.close()
         self.loop.close()
 
-    def outlet(self, name: Name, kinds: tuple[type[Message], ...], urgent: bool) -> Outlet:
+    def outlet(self, name: Name, types: tuple[type[Message], ...], urgent: bool) -> Outlet:
         """Return what says bytes on a topic, and tell everybody that it is there."""
-        self.session.declare_token(presence.endpoint_key(name, "pub", self._node, kinds))
+        self.session.declare_token(presence.endpoint_key(name, "pub", self._node, types))
         return self.session.advertise(name.key, urgent)
 
     def inbox(
         self,
         topic: str,
-        kinds: tuple[type[Message], ...],
+        types: tuple[type[Message], ...],
         depth: int | None = None,
         complain: bool = True,
     ) -> Subscription[Any]:
         """Return what hears a topic, of a command topic all its sources; and tell everybody likewise."""
         name = resolve(topic, self._robot)
-        kind = topic_of(name.path)
-        if kind.command and name.path == kind.name:
-            name = Name(name.robot, f"{kind.name}/**")
-        ring = self.session.subscribe(name.key, depth or kind.depth)
-        self.session.declare_token(presence.endpoint_key(name, "sub", self._node, kinds))
+        about = topic_of(name.path)
+        if about.command and name.path == about.name:
+            name = Name(name.robot, f"{about.name}/**")
+        ring = self.session.subscribe(name.key, depth or about.depth)
+        self.session.declare_token(presence.endpoint_key(name, "sub", self._node, types))
         words = self._complain if complain else _keep_quiet
-        return Subscription(ring, codec.decoders(kinds), words, self.handling)
+        return Subscription(ring, codec.decoders(types), words, self.handling)
 
     def deliver(self, inbox: Inbox, handler: Callable[[Any], object]) -> None:
         """Hand what arrives to a handler in the loop."""

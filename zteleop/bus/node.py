@@ -38,8 +38,8 @@ class Node:
         self.robot = robot_name(robot) if robot else None
         session = session or open_session(bus or BusSettings())
         try:
+            # the insides, for whoever needs the session, the loop, or what is heard of robots
             self.membership = Membership(self.name, self.robot, session, self._complain)
-            """What this is made of, for whoever needs the session, the loop, or what is heard of robots."""
             self.log = NodeLog(self.name, self._say, stderr.tell)
             self._log_publisher: Publisher[Log] | None = None
             if self.robot:
@@ -80,24 +80,30 @@ class Node:
         Raises ConfigError when the topic's name is none, or the topic takes other types.
         """
         name, kinds = resolve(topic, self.robot), _tuple(types)
-        kind = topic_of(name.path)
-        if kind.types and not set(kinds) <= set(kind.types):
-            takes = " or ".join(accepted.__name__ for accepted in kind.types)
+        about = topic_of(name.path)
+        if about.types and not set(kinds) <= set(about.types):
+            takes = " or ".join(accepted.__name__ for accepted in about.types)
             raise ConfigError(f"{topic} takes {takes}, found {', '.join(k.__name__ for k in kinds)}")
-        if not kind.command:
-            return Publisher(self.membership.outlet(name, kinds, kind.urgent), kinds)
-        path = name.path
-        if path == kind.name:
-            name = Name(name.robot, f"{kind.name}/{chunk(source, 'a source')}")
+        if not about.command:
+            return Publisher(self.membership.outlet(name, kinds, about.urgent), kinds)
+        return self._command_publisher(name, kinds, source, wait)
+
+    def _command_publisher(
+        self, name: Name, kinds: tuple[type[M], ...], source: str, wait: bool
+    ) -> Publisher[M]:
+        """Return a sender of commands, which proves that each is new and hears whether it is obeyed."""
+        said, about = name.path, topic_of(name.path)  # the log speaks of the topic as the program does
+        if said == about.name:
+            name = Name(name.robot, f"{about.name}/{chunk(source, 'a source')}")
         heard = self.membership.heard(name.robot)
         found = heard.wait() if wait else True
         sender = new_id()
-        answer = Answer(f"{sender:x}", path, name.robot, heard, self.log)
+        answer = Answer(f"{sender:x}", said, name.robot, heard, self.log)
         if not found:
             answer.miss()
         self.membership.session.declare_token(presence.sender_key(name.robot, sender))
         return Publisher(
-            self.membership.outlet(name, kinds, kind.urgent),
+            self.membership.outlet(name, kinds, about.urgent),
             kinds,
             Prover(sender),
             heard,

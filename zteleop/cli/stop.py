@@ -1,7 +1,7 @@
 import argparse
 import sys
+import threading
 import time
-from concurrent.futures import ThreadPoolExecutor
 
 from zteleop import config
 from zteleop.bus import clock, presence
@@ -67,12 +67,22 @@ class Stops:
 
     def join(self, settings: Config, settle: bool) -> Node:
         """Join the bus, and say meanwhile on the lane what is asked for; raises BusError as that does."""
-        with ThreadPoolExecutor(1) as joining:
-            node = joining.submit(_options.join_for_any, "stop", settings, settle)
-            while not node.done():
-                self.heed()
-                time.sleep(GLANCE)
-        return node.result()
+        joined: list[Node | BaseException] = []
+
+        def join() -> None:
+            try:
+                joined.append(_options.join_for_any("stop", settings, settle))
+            except BaseException as error:
+                joined.append(error)
+
+        joining = threading.Thread(target=join)
+        joining.start()
+        while joining.is_alive():
+            self.heed()
+            joining.join(GLANCE)
+        if isinstance(joined[0], BaseException):
+            raise joined[0]
+        return joined[0]
 
     def finish_alone(self, error: BusError) -> int:
         """Finish without a bus; raises its error where one of them has not answered on the lane."""

@@ -16,10 +16,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> None:
     with _options.join("why", _options.load_anyhow(arguments)) as node:
-        print(explain(node))
+        print(answer(node))
 
 
-def explain(node: Node) -> str:
+def answer(node: Node) -> str:
     """Return a line for the robot and one for each layer between a key and a wheel."""
     statuses, whys = node.subscription("drive_status", DriveStatus), node.subscription("why", Why)
     dogs = node.subscription("watchdog", WatchdogStatus)

@@ -1,5 +1,6 @@
 """What may move the robot: gate -> holds -> mux; and while nothing may, why."""
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 from zteleop.control.calibration import Calibration
@@ -47,7 +48,7 @@ class Admission:
         calibration: Calibration,
         epoch: int,
         now: float,
-        mux: Claims | None = None,
+        keeps: Callable[[Silences], Claims] | None = None,
         grace: float = 0.0,
     ) -> None:
         self._settings = settings
@@ -55,7 +56,8 @@ class Admission:
         self._sources = settings.known_sources
         self.gate = Gate(settings.deadlines, epoch, now, grace)
         self.silences = Silences(self._sources, settings.deadlines.operator)
-        self.mux = mux or Mux(self._sources, self.silences, settings.deadlines.link_loss)
+        link_loss = settings.deadlines.link_loss
+        self.mux: Claims = keeps(self.silences) if keeps else Mux(self._sources, self.silences, link_loss)
         self.foreign = Foreigners(self._sources, grace, now)
         self.holds = Holds()
         self.latch = Latch()

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from zteleop.control import curvature
+from zteleop.control.cap import Bound
 from zteleop.control.evidence import STANDS, Evidence
 from zteleop.control.mux import Claim
 from zteleop.control.proof import called
@@ -37,7 +38,7 @@ def slowed(seen: Snapshot) -> str:
         return ""
     if bound.by == "source":
         return f"{claim.source} may drive no faster here"
-    return _age(seen, claim)
+    return _age(seen, claim)  # the link
 
 
 def wanted(seen: Snapshot) -> Twist:
@@ -58,20 +59,20 @@ def _operator(seen: Snapshot) -> str:
     return f"{_sender(claim)} operates, acted {acted} and asks for {_asked(claim)}"
 
 
-def _mux(seen: Snapshot) -> str:
-    claim = seen.step.claim
-    waiting = [_sender(other) for other in seen.claims if other is not claim]
-    priority = seen.settings.known_sources[claim.source].priority if claim else 0
-    chosen = f"{claim.source} drives with priority {priority}" if claim else "no claim counts"
-    return f"{chosen}; {', '.join(waiting)} waits" if waiting else chosen
-
-
 def _gate(seen: Snapshot) -> str:
     told = []
     for source, refused in seen.refused.items():
         since, ago = seen.now - refused.since, seen.now - refused.at
         told.append(f"{source}: {refused.why} ({refused.times} times in {since:.1f} s, last {ago:.1f} s ago)")
     return f"refuses {'; '.join(told)}" if told else "refuses nobody"
+
+
+def _mux(seen: Snapshot) -> str:
+    claim = seen.step.claim
+    waiting = [_sender(other) for other in seen.claims if other is not claim]
+    priority = seen.settings.known_sources[claim.source].priority if claim else 0
+    chosen = f"{claim.source} drives with priority {priority}" if claim else "no claim counts"
+    return f"{chosen}; {', '.join(waiting)} {'waits' if len(waiting) == 1 else 'wait'}" if waiting else chosen
 
 
 def _rest(seen: Snapshot) -> str:
@@ -97,7 +98,8 @@ def _distance(seen: Snapshot) -> str:
     if seen.step.bound.by != "link":
         return ""
     distance = seen.settings.cap.stopping_distance
-    return f", and it must stop {f'within {distance:g} m' if distance else 'as soon as on a good link'}"
+    within = f"within {distance:g} m" if distance else "as soon as on a good link"
+    return f", and it must stop {within}"
 
 
 def _metres(speed: float) -> str:
@@ -119,8 +121,7 @@ def _bounds(seen: Snapshot, claim: Claim, asked: Twist, applied: Twist) -> Itera
     mixer, limits = seen.settings.mixer, seen.settings.limits
     speed = seen.step.bound.speed
     if abs(asked.linear.x) > speed + _LEAST:
-        capped = seen.step.bound.by in ("link", "strain")
-        yield f"the cap is {_metres(speed)} m/s" if capped else f"{claim.source} may drive {speed:g} m/s here"
+        yield _top(claim.source, seen.step.bound)
     best = mixer.unmix(mixer.mix(asked))
     if abs(applied.linear.x) < min(abs(best.linear.x), speed) - _LEAST:
         yield f"speed changes by {limits.acceleration:g} m/s^2"
@@ -128,6 +129,14 @@ def _bounds(seen: Snapshot, claim: Claim, asked: Twist, applied: Twist) -> Itera
         yield f"the throttle is obeyed {limits.pulse_duty:.0%} of the time"
     if abs(_bend(applied)) < abs(_bend(asked)) - _LEAST:
         yield "it turns no tighter"
+
+
+def _top(source: str, bound: Bound) -> str:
+    """Return what bounds the speed: the vehicle itself, the settings of its source, or the cap."""
+    speed = f"{_metres(bound.speed)} m/s"
+    return {"vehicle": f"it does {speed} at most", "source": f"{source} may drive {speed} here"}.get(
+        bound.by, f"the cap is {speed}"
+    )
 
 
 def _wheels(seen: Snapshot, chip: Evidence) -> str:

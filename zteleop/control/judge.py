@@ -59,8 +59,7 @@ class Judge:
     def __init__(self, settings: DriveSettings, tick_us: float, now: float) -> None:
         later = _later(settings)
         self._calibration = Calibration(settings.servos, tick_us)
-        claims = EveryClaim(Silences(later.known_sources, later.deadlines.operator))
-        self._admission = Admission(later, self._calibration, -1, now, claims, GRACE)
+        self._admission = Admission(later, self._calibration, -1, now, EveryClaim, GRACE)
         self.neutral_us = self._calibration.neutral_us
         self._epoch = -1
         self._stopped: float | None = None

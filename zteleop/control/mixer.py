@@ -1,6 +1,9 @@
 """From the body's twist to its wheels and back, for each kind of vehicle.
 
-Wheels are named fractions of full range, -1..1. One class per kind, one line at the end.
+Wheels are named fractions of full range, -1..1. One class per kind, one line at the end. Each says what
+its kind can do (`steers`, `takes_ticks`, `driven`, `wheels`) and what a screen must know (`wheelbase` and
+`max_steering_angle`, 0 where there are none; `max_speed`, `max_turn`). Of a twist only `linear.x` and
+`angular.z` arrive: the limiter before passes no others.
 """
 
 from math import atan, tan

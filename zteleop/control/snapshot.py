@@ -11,7 +11,7 @@ from zteleop.control.refusals import Refused
 from zteleop.control.settings import DriveSettings
 
 RECENT = 10.0
-"""s for which a refusal is worth a sentence."""
+"""s for which a refusal is worth a sentence of its own; beside the reason to rest it is told for less"""
 
 
 class Snapshot(NamedTuple):
@@ -21,11 +21,13 @@ class Snapshot(NamedTuple):
     calibration: Calibration
     step: Step
     claims: list[Claim]
-    """that count, whoever of them drives"""
+    """whose senders are not silent, whoever of them drives"""
     refused: Mapping[str, Refused]
     """lately, by source"""
     holds: Sequence[Hold]
+    """why it is at rest, the reason to tell first in front"""
     stopped: bool
+    """a stop is in force"""
     foreign: bool
     """whoever drives cannot prove how old its commands are"""
     top: float
@@ -37,16 +39,16 @@ class Snapshot(NamedTuple):
 
 def snapshot(drive: Drive, step: Step, now: float) -> Snapshot:
     """Return how a drive stands at a step."""
-    heard, cap = drive.admission, drive.movement.cap
+    admission, cap = drive.admission, drive.movement.cap
     return Snapshot(
         settings=drive.settings,
         calibration=drive.calibration,
         step=step,
-        claims=[claim for claim in heard.mux.claims if not heard.silences.silent(claim, now)],
-        refused=heard.refusals.recent(now, RECENT),
-        holds=heard.holds.in_order,
-        stopped=bool(heard.latch.stops),
-        foreign=step.claim is not None and heard.foreign.includes(step.claim),
+        claims=[claim for claim in admission.mux.claims if not admission.silences.silent(claim, now)],
+        refused=admission.refusals.recent(now, RECENT),
+        holds=admission.holds.in_order,
+        stopped=bool(admission.latch.stops),
+        foreign=step.claim is not None and admission.foreign.includes(step.claim),
         top=cap.top,
         strain=cap.strain.why,
         now=now,

@@ -25,7 +25,7 @@ class Door:
     def __init__(
         self,
         command: Sequence[str],
-        orders: Callable[[bool], bytes],
+        orders: Callable[[bool], bytes],  # for the first one, or a later one
         place: str,
         tell: Callable[[str], object],
     ) -> None:
@@ -83,7 +83,11 @@ class Door:
         if self._due is not None:
             if now >= self._due and self._is_gone:
                 self._start_again(now)
-        elif why := self._listen(now) or ("" if late else self._judge(now)):
+            return
+        why = self._listen(now)
+        if not why and not late:  # who came late himself has not heard what was said in time
+            why = self._judge(now)
+        if why:
             self._break(why, now)
 
     def _start_again(self, now: float) -> None:
@@ -114,7 +118,7 @@ class Door:
         except BlockingIOError:
             return ""
         except OSError:
-            pass
+            pass  # a link that is reset says the same as one that ends: the process is gone
         if not self._was_open and self._process:
             with suppress(subprocess.TimeoutExpired):
                 self._process.wait(ENDS_WITHIN)
@@ -136,6 +140,7 @@ class Door:
         pause = self._backoff.pause(now - self._vigil.started)
         self._due = now + pause
         after = f" in {pause:g} s" if pause else ""
+        self.is_open = False
         self._kill()
         if self._link:
             self._link.close()

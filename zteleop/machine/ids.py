@@ -1,6 +1,6 @@
 """Names that nobody else has."""
 
-import secrets
+import os
 
 BITS = 53
 """What every reader of JSON can count. Zero is nobody, and the greatest is many (`control.stop.MERGED`)."""
@@ -8,4 +8,5 @@ BITS = 53
 
 def new_id() -> int:
     """Return the id of a sender, a stop, or a start of a robot."""
-    return 1 + secrets.randbelow(2**BITS - 3)
+    # not `secrets`, which costs a stop 10 ms of its start
+    return 1 + int.from_bytes(os.urandom(8)) % ((1 << BITS) - 3)

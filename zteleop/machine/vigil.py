@@ -9,6 +9,7 @@ from zteleop.control.deadlines import DOOR_SILENCE, DOOR_START, LONGEST_OPENING
 LARGEST = 192 * 2**20
 """bytes of memory; strangers fill it, and the robot's own processes need the rest of the machine"""
 WEIGH_EVERY = 0.5
+"""s"""
 
 
 class Vigil:
@@ -17,21 +18,26 @@ class Vigil:
     def __init__(self) -> None:
         self.started = float("-inf")
         self._heard = float("-inf")
+        """When it last said that it works."""
         self._weighed = float("-inf")
         self._patience = DOOR_START
+        """How long it may take to open."""
 
     def begin(self, now: float) -> None:
         """Watch the next one, which starts now."""
         self.started = now
 
     def hear(self, now: float, first: bool) -> None:
-        """Take in its word; with the first it is open, and the next may take no longer to open than usual."""
+        """Take in its word; the first says that it is open, and the doubled time for opening is reset."""
         self._heard = now
         if first:
             self._patience = DOOR_START
 
     def judge(self, pid: int, is_open: bool, now: float) -> str:
-        """Return what the process `pid` is to be ended for; nothing while it is as it must be."""
+        """Return what the process `pid` is to be ended for; nothing while it is as it must be.
+
+        One that did not open in time leaves the next twice as long.
+        """
         if not is_open:
             return self._judge_start(now)
         if now - self._heard > DOOR_SILENCE:

@@ -190,15 +190,15 @@ class Watchdog:
         if self._child.link:
             self._child.link.stop(stop)
 
-    def _fell(self, why: str, patience: float, late: bool = False) -> None:
-        """Make sure that the actuator is gone, bring the chip to rest, and start another.
+    def _fell(self, why: str, wait: float, late: bool = False) -> None:
+        """Make sure, after `wait` s, that the actuator is gone, bring the chip to rest, and start another.
 
         One that was only late, or that this process was late for, is followed by one in its place.
         """
         now = clock.now()
         if self._child.link:
             self._node.membership.loop.unwatch(self._child.link.fileno())
-        code = self._child.end(patience)
+        code = self._child.end(wait)
         self._rest()
         if self._never_stepped and code and code > 0:  # it has said why, in a sentence of its own
             self._exit_code = code

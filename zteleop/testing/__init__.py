@@ -4,13 +4,14 @@ from zteleop.testing import FakeNode
 
 node = FakeNode(robot="archangel")
 turn_in_circles(node)               # what the program does with its node
-node.live(3.0)                      # three seconds of its timers, at once
-assert len(node.said["cmd_vel"].messages) == 3
+node.live(3.0)                      # three seconds of its timers, the first time at once
+assert len(node.said["cmd_vel"].messages) == 4
 """
 
 from zteleop.testing.chip import MemoryChip
 from zteleop.testing.clock import Clock
 from zteleop.testing.link import Link
 from zteleop.testing.node import FakeNode, Inbox, Said
+from zteleop.testing.terminal import FakeTerminal
 
-__all__ = ["Clock", "FakeNode", "Inbox", "Link", "MemoryChip", "Said"]
+__all__ = ["Clock", "FakeNode", "FakeTerminal", "Inbox", "Link", "MemoryChip", "Said"]

@@ -51,12 +51,17 @@ class Said:
 
 
 class Inbox:
-    """A subscription into which a test puts messages."""
+    """A subscription into which a test puts messages; what iterates over it ends when it is empty."""
 
-    def __init__(self, handler: Callable[[Any], object] | None) -> None:
-        self.handler = handler
+    def __init__(self, *handlers: Callable[[Any], object]) -> None:
+        self.handlers = list(handlers)
         self.waiting: list[Any] = []
         self.dropped = 0
+
+    def handler(self, received: Any) -> None:
+        """Hand something to every handler."""
+        for handle in self.handlers:
+            handle(received)
 
     def __iter__(self) -> Iterator[Any]:
         return self.take()
@@ -115,7 +120,11 @@ class FakeMembership:
 
 
 class FakeNode:
-    """A `Node` to hand to a program under test; its log is three lists of sentences."""
+    """A `Node` to hand to a program under test; its log is three lists of sentences.
+
+    It checks neither types nor names, and its robot is always there. What is said on one topic is kept
+    together, whoever says it.
+    """
 
     def __init__(
         self,
@@ -167,7 +176,9 @@ class FakeNode:
         depth: int | None = None,
         complain: bool = True,
     ) -> Inbox:
-        return self.inboxes.setdefault(topic, Inbox(handler))
+        inbox = self.inboxes.setdefault(topic, Inbox())
+        inbox.handlers += [handler] if handler else []
+        return inbox
 
     def on(self, topic: str, types: object) -> Callable[[Callable[[Any], object]], Callable[[Any], object]]:
         def decorate(function: Callable[[Any], object]) -> Callable[[Any], object]:
@@ -204,7 +215,7 @@ class FakeNode:
         """Hear a message, by way of the link: its handler runs now, or it waits in its inbox."""
         inbox = self.inboxes[topic]
         for arrived in self._link.carry(message):
-            if inbox.handler:
+            if inbox.handlers:
                 inbox.handler(SimpleNamespace(message=arrived, at=self.loop.clock.time))
             else:
                 inbox.waiting.append(arrived)

@@ -121,7 +121,7 @@ class FarRig(Rig):
         return self.keep(Process([*inside(namespace), *command], surroundings, self.folder))
 
 
-class Bench:
+class LinkBench:
     """A robot that is driven from another machine; `network` disturbs what lies between."""
 
     def __init__(

@@ -4,11 +4,11 @@ import signal
 from collections.abc import Callable
 from typing import Literal, NamedTuple
 
-from faults.link.bench import Bench
+from faults.link.bench import LinkBench
 from faults.link.emulator import Way
 from faults.link.network import DEAD, SOUND
 
-Act = Callable[[Bench], object]
+Act = Callable[[LinkBench], object]
 Then = Literal["rests", "drives", "either"]
 ROAMED = "10.77.0.3"
 OUTAGE = 0.45
@@ -17,7 +17,7 @@ THIN = Way(rate=64_000, queue=20)
 SHARED = Way(rate=1_000_000, delay=0.01, queue=60)
 
 
-def nothing(bench: Bench) -> None:
+def nothing(bench: LinkBench) -> None:
     """Leave it as it is."""
 
 
@@ -48,55 +48,55 @@ def link(forth: Way, back: Way | None = None) -> Act:
     return lambda bench: bench.network.set(forth, back)
 
 
-def stop_robot(bench: Bench) -> None:
+def stop_robot(bench: LinkBench) -> None:
     bench.watchdog.signal(signal.SIGTERM)
 
 
-def kill_operator(bench: Bench) -> None:
+def kill_operator(bench: LinkBench) -> None:
     bench.operator.signal(signal.SIGKILL)
 
 
-def kill_both(bench: Bench) -> None:
+def kill_both(bench: LinkBench) -> None:
     stop_robot(bench)
     kill_operator(bench)
 
 
-def start_robot(bench: Bench) -> None:
+def start_robot(bench: LinkBench) -> None:
     bench.watchdog.ends()
     bench.start_robot()
 
 
-def start_operator(bench: Bench) -> None:
+def start_operator(bench: LinkBench) -> None:
     bench.operator.ends()
     bench.start_operator()
 
 
-def start_robot_first(bench: Bench) -> None:
+def start_robot_first(bench: LinkBench) -> None:
     start_robot(bench)
     start_operator(bench)
 
 
-def start_operator_first(bench: Bench) -> None:
+def start_operator_first(bench: LinkBench) -> None:
     """Start somebody who drives before there is a robot, as a program does that runs on."""
     start_operator(bench)
     bench.operator.says("is not heard")
     start_robot(bench)
 
 
-def roam(bench: Bench) -> None:
+def roam(bench: LinkBench) -> None:
     bench.network.move_operator(ROAMED)
 
 
-def kill_router(bench: Bench) -> None:
+def kill_router(bench: LinkBench) -> None:
     bench.router.signal(signal.SIGKILL)
 
 
-def start_router(bench: Bench) -> None:
+def start_router(bench: LinkBench) -> None:
     bench.router.ends()
     bench.start_router()
 
 
-def watch_pictures(bench: Bench) -> None:
+def watch_pictures(bench: LinkBench) -> None:
     bench.start_video()
     bench.network.set(SHARED)
 

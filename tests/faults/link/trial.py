@@ -4,7 +4,7 @@ import time
 from pathlib import Path
 from typing import NamedTuple
 
-from faults.link.bench import FRESH, Bench
+from faults.link.bench import FRESH, LinkBench
 from faults.link.faults import LinkFault
 from faults.link.network import Network
 from rig import until
@@ -41,12 +41,12 @@ def attempt(fault: LinkFault, folder: Path, moment: float = 0.0, seed: int = 0) 
     """Do a fault once, `moment` seconds after the robot moves."""
     folder.mkdir(exist_ok=True)
     options = ["--rate", str(fault.rate), *(["--standing"] if fault.standing else [])]
-    with Network(seed) as network, Bench(network, folder, operator=options, router=fault.router) as bench:
+    with Network(seed) as network, LinkBench(network, folder, operator=options, router=fault.router) as bench:
         time.sleep(SETTLE + moment)
         return judge(bench, fault)
 
 
-def judge(bench: Bench, fault: LinkFault) -> Outcome:
+def judge(bench: LinkBench, fault: LinkFault) -> Outcome:
     """Do a fault and say what followed."""
     its, struck = meter(bench.rig), time.monotonic()
     fault.strike(bench)
@@ -64,7 +64,7 @@ def judge(bench: Bench, fault: LinkFault) -> Outcome:
     return Outcome(seconds, witness.stale, witness.oldest(struck), share, ended, broken, waited)
 
 
-def _follow(bench: Bench, fault: LinkFault, rested: float, undone: float) -> tuple[str, str]:
+def _follow(bench: LinkBench, fault: LinkFault, rested: float, undone: float) -> tuple[str, str]:
     """Say how it went on, and what was wrong with that."""
     bench.is_heard_again()
     if fault.then == "drives":
@@ -81,14 +81,14 @@ def _follow(bench: Bench, fault: LinkFault, rested: float, undone: float) -> tup
     return "drives" if moves else "rests", ""
 
 
-def _moves_within(bench: Bench, patience: float, since: float) -> bool:
+def _moves_within(bench: LinkBench, patience: float, since: float) -> bool:
     give_up = time.monotonic() + patience
     while time.monotonic() < give_up and not bench.witness.moved(since):
         time.sleep(0.001)
     return bench.witness.moved(since) > 0
 
 
-def _find_fault(bench: Bench) -> str:
+def _find_fault(bench: LinkBench) -> str:
     """Say what must never happen, whatever the fault is."""
     if bench.witness.stale:
         return f"{bench.witness.stale} commands were executed more than {FRESH:g} s after they were sent"

@@ -33,7 +33,7 @@ class Robot(FakeNode):
         self.ears: list[Inbox] = []
 
     def subscription(self, topic: str, types: object, handler: Any = None) -> Inbox:
-        self.ears.append(Inbox(handler))
+        self.ears.append(Inbox(*filter(None, [handler])))
         return self.ears[-1]
 
     def until(self, look: Callable[[], Any], seconds: float) -> Any:
@@ -53,7 +53,7 @@ class Robot(FakeNode):
         status.state, status.why = ("stopped", "a stop") if status.stops else self.calm
         for inbox in self.ears:
             inbox.waiting.append(status)
-            if inbox.handler:
+            if inbox.handlers:
                 inbox.handler(SimpleNamespace(message=status, at=self.clock.time))
 
     def __enter__(self) -> "Robot":

@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from zteleop.cli import why
-from zteleop.cli.why import explain, state_of
+from zteleop.cli.why import answer, state_of
 from zteleop.errors import BusError
 from zteleop.messages import DriveStatus, Layer, WatchdogStatus, Why
 from zteleop.testing import FakeNode
@@ -47,7 +47,7 @@ LAYERS = Why([Layer("operator", "keyboard 00ff operates"), Layer("limiter", "pas
 
 
 def test_a_line_for_the_robot_and_one_for_each_layer() -> None:
-    assert explain(node(drive_status=STATUS, why=LAYERS, watchdog=dog())).splitlines() == [
+    assert answer(node(drive_status=STATUS, why=LAYERS, watchdog=dog())).splitlines() == [
         "archangel is driving: keyboard drives",
         "  operator  keyboard 00ff operates",
         "  limiter   passes it on as asked",
@@ -57,19 +57,19 @@ def test_a_line_for_the_robot_and_one_for_each_layer() -> None:
 
 
 def test_a_robot_whose_actuator_is_gone_is_told_by_its_watchdog() -> None:
-    lines = explain(node(watchdog=dog(state="resting", why="the actuator is gone: it ended"))).splitlines()
+    lines = answer(node(watchdog=dog(state="resting", why="the actuator is gone: it ended"))).splitlines()
     assert lines[0] == "archangel: no actuator heard"
     assert lines[1].startswith("  watchdog  resting: the actuator is gone: it ended; sees ")
 
 
 def test_a_robot_whose_watchdog_is_not_heard_says_so() -> None:
-    assert explain(node(drive_status=STATUS)).splitlines()[-1] == "  watchdog  is not heard"
+    assert answer(node(drive_status=STATUS)).splitlines()[-1] == "  watchdog  is not heard"
 
 
 def test_nobody_there_is_an_error_in_words() -> None:
     silent = node()
     with pytest.raises(BusError, match=r"no actuator of archangel is heard within 2 s; is it on\?"):
-        explain(silent)
+        answer(silent)
     assert silent.patience == why.HEARD_WITHIN
 
 
@@ -104,4 +104,4 @@ def test_the_verb_prints_it_escaped(monkeypatch: pytest.MonkeyPatch, capsys: Any
 
 def test_a_stranger_adds_no_line_of_his_own() -> None:
     evil = Why([Layer("operator", "nobody\n  watchdog  watching")])
-    assert len(explain(node(drive_status=STATUS, why=evil)).splitlines()) == 3
+    assert len(answer(node(drive_status=STATUS, why=evil)).splitlines()) == 3

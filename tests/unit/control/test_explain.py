@@ -74,6 +74,12 @@ def test_a_source_that_may_not_drive_so_fast_names_its_cap() -> None:
     assert says(robot)["cap"] == "0.4 of 3 m/s: nav may drive no faster here"
 
 
+def test_a_vehicle_that_can_do_no_more_says_so_whoever_asks() -> None:
+    robot = Robot()
+    robot.hold(Twist.planar(9.0), 2.0)
+    assert says(robot)["limiter"] == "makes it +3.00 m/s +0.00 rad/s: it does 3 m/s at most"
+
+
 def test_a_good_link_is_told_with_its_age() -> None:
     robot = Robot()
     robot.wait(1.0)
@@ -164,7 +170,7 @@ def test_who_waits_behind_the_one_who_drives_is_named() -> None:
     robot.say(FORWARD, "a", "keyboard")
     robot.say(FORWARD, "b", "program")
     robot.say(FORWARD, "c", "web")
-    assert says(robot)["mux"] == "web drives with priority 100; keyboard 0001, program 0002 waits"
+    assert says(robot)["mux"] == "web drives with priority 100; keyboard 0001, program 0002 wait"
     robot.wait(0.4)
     assert says(robot)["mux"] == "program drives with priority 50"
 

@@ -37,7 +37,7 @@ class Pads:
         self.entered -= 1
 
 
-class Bench:
+class Player:
     def __init__(self, vehicle: Vehicle | None = None, **settings: object) -> None:
         self.pads = Pads()
         self.gamepad = Gamepad(self.pads, GamepadSettings(**settings), Speeds(0.25, 0.5))
@@ -74,8 +74,8 @@ class Bench:
 
 
 @pytest.fixture
-def bench(tank: Vehicle) -> Bench:
-    bench = Bench(tank)
+def bench(tank: Vehicle) -> Player:
+    bench = Player(tank)
     bench.plug()
     return bench
 
@@ -142,7 +142,7 @@ def test_turbo_is_all_the_robot_can_and_enables_by_itself(bench, tank):
 
 
 def test_what_is_held_when_a_pad_comes_must_be_let_go(tank):
-    bench = Bench(tank)
+    bench = Player(tank)
     bench.plug(**{LB: 1.0, Y: -1.0})
     assert bench.gamepad.words == "Pad: let go of LB and of the sticks before you drive"
     assert not bench.move({Y: -0.9})
@@ -189,7 +189,7 @@ def test_b_stops_the_robot_and_lets_go(bench):
 
 
 def test_a_button_that_is_down_when_a_pad_comes_was_not_pressed(tank):
-    bench = Bench(tank)
+    bench = Player(tank)
     bench.plug(**{B: 1.0, START: 1.0})
     bench.read(2 * RELEASE_HELD)
     assert bench.wish() is None
@@ -232,7 +232,7 @@ def test_a_release_never_takes_back_a_stop(bench):
 
 
 def test_another_mapping(tank):
-    bench = Bench(tank, forward="ABS_X", turn="ABS_Y", deadman="BTN_EAST", stop="-ABS_Z", turbo="")
+    bench = Player(tank, forward="ABS_X", turn="ABS_Y", deadman="BTN_EAST", stop="-ABS_Z", turbo="")
     bench.plug(ABS_Z=1.0)
     bench.move({B: 1.0})
     bench.move({X: 1.0, Y: -1.0})
@@ -242,14 +242,14 @@ def test_another_mapping(tank):
 
 
 def test_a_pad_without_what_is_needed_never_drives_and_says_what(tank):
-    bench = Bench(tank, deadman="BTN_PINKIE")
+    bench = Player(tank, deadman="BTN_PINKIE")
     bench.plug()
     assert bench.gamepad.words == "Pad has no BTN_PINKIE; zteleop gamepad --learn finds out what it has"
     assert not bench.move({RB: 1.0, Y: -1.0})
 
 
 def test_what_is_wrong_is_said_where_no_pad_may_be_read(tank):
-    bench = Bench(tank)
+    bench = Player(tank)
     bench.pads.trouble = "not for this user"
     assert bench.gamepad.words == "not for this user"
 
@@ -282,7 +282,7 @@ DEEDS = st.one_of(
 @given(st.lists(DEEDS, max_size=40))
 def test_whatever_is_done_it_drives_only_while_held_and_after_rest(deeds):
     channels = [Channel(name, i, 1000.0, 1500.0, 2000.0, 205, 307, 410) for i, name in enumerate("lr")]
-    bench = Bench(Vehicle("differential", channels, 0.3, 1.5, 0.0, 0.0, 3.0, 4.08, True))
+    bench = Player(Vehicle("differential", channels, 0.3, 1.5, 0.0, 0.0, 3.0, 4.08, True))
     at, rested, enabled, heard = dict[str, float](), False, False, bench.now
     for what, value in deeds:
         if what == "plug":

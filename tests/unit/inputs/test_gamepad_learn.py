@@ -9,7 +9,7 @@ FOUND = {
 }
 
 
-class Bench:
+class Pupil:
     def __init__(self, **found: float) -> None:
         self.lesson = Lesson()
         self.found = {**FOUND, **found}
@@ -29,8 +29,8 @@ class Bench:
 
 
 @pytest.fixture
-def bench() -> Bench:
-    bench = Bench()
+def bench() -> Pupil:
+    bench = Pupil()
     assert bench.lesson.question == ASK[""]
     bench.push("BTN_SOUTH", 1.0)
     assert bench.lesson.question == ASK["forward"]
@@ -38,7 +38,7 @@ def bench() -> Bench:
 
 
 @pytest.fixture
-def buttons(bench: Bench) -> Bench:
+def buttons(bench: Pupil) -> Pupil:
     bench.push("ABS_Y", -0.5, -1.0, -0.3)
     assert bench.lesson.question == ASK["turn"]
     bench.push("ABS_X", -0.9, 0.4)  # a spring goes beyond the middle
@@ -46,7 +46,7 @@ def buttons(bench: Bench) -> Bench:
     return bench
 
 
-def test_everything_is_asked_for_in_turn(buttons: Bench) -> None:
+def test_everything_is_asked_for_in_turn(buttons: Pupil) -> None:
     for use, name in (
         ("deadman", "BTN_TL"),
         ("turbo", "BTN_TR"),
@@ -60,7 +60,7 @@ def test_everything_is_asked_for_in_turn(buttons: Bench) -> None:
 
 
 def test_what_was_learned_is_a_mapping() -> None:
-    bench = Bench(BTN_SELECT=0.0)
+    bench = Pupil(BTN_SELECT=0.0)
     bench.push("BTN_SOUTH", 1.0)
     for name, place in (
         ("ABS_Y", 1.0),
@@ -77,7 +77,7 @@ def test_what_was_learned_is_a_mapping() -> None:
 
 
 def test_a_stick_that_was_never_moved_is_at_rest_where_it_returns_to() -> None:
-    bench = Bench(ABS_Y=-1.0)  # the kernel says 0 of 255 until the first report
+    bench = Pupil(ABS_Y=-1.0)  # the kernel says 0 of 255 until the first report
     bench.push("ABS_Y", 1.0, 0.02)
     bench.found["ABS_Y"] = 0.0
     bench.take(Moved("ABS_Y", 0.0))
@@ -90,13 +90,13 @@ def test_a_stick_that_was_never_moved_is_at_rest_where_it_returns_to() -> None:
     assert bench.lesson.settings.forward == "-ABS_Y"
 
 
-def test_a_stick_pushed_a_little_is_no_answer(bench: Bench) -> None:
+def test_a_stick_pushed_a_little_is_no_answer(bench: Pupil) -> None:
     bench.push("ABS_Y", -0.5)
     assert bench.lesson.question == ASK["forward"]
     assert bench.lesson.complaint == ""
 
 
-def test_a_trigger_is_no_stick_and_a_stick_no_button(bench: Bench) -> None:
+def test_a_trigger_is_no_stick_and_a_stick_no_button(bench: Pupil) -> None:
     bench.push("ABS_Z", 1.0)
     assert bench.lesson.complaint == "a stick is meant"
     bench.push("BTN_SOUTH", 1.0)
@@ -105,21 +105,21 @@ def test_a_trigger_is_no_stick_and_a_stick_no_button(bench: Bench) -> None:
     assert bench.lesson.complaint == ""
 
 
-def test_nothing_is_learned_before_it_is_let_go(bench: Bench) -> None:
+def test_nothing_is_learned_before_it_is_let_go(bench: Pupil) -> None:
     bench.take(Moved("ABS_Y", -1.0))
     assert bench.lesson.question == ASK["forward"]
     bench.take(Moved("ABS_Y", 0.0))
     assert bench.lesson.question == ASK["turn"]
 
 
-def test_a_stick_that_is_taken_is_refused(bench: Bench) -> None:
+def test_a_stick_that_is_taken_is_refused(bench: Pupil) -> None:
     bench.push("ABS_Y", -1.0)
     bench.push("ABS_Y", 1.0)
     assert bench.lesson.complaint == "that is ABS_Y, which is forward already"
     assert bench.lesson.question == ASK["turn"]
 
 
-def test_a_trigger_that_is_a_button_as_well_is_the_button(buttons: Bench) -> None:
+def test_a_trigger_that_is_a_button_as_well_is_the_button(buttons: Pupil) -> None:
     buttons.take(Moved("ABS_Z", 0.5), Moved("BTN_TL2", 1.0), Moved("ABS_Z", 1.0))
     buttons.take(Moved("BTN_TL2", 0.0), Moved("ABS_Z", -1.0))
     assert buttons.lesson.question == ASK["turbo"]
@@ -128,6 +128,6 @@ def test_a_trigger_that_is_a_button_as_well_is_the_button(buttons: Bench) -> Non
     assert buttons.lesson.complaint == "that is BTN_TR, which is turbo already"
 
 
-def test_another_pad_begins_anew(buttons: Bench) -> None:
+def test_another_pad_begins_anew(buttons: Pupil) -> None:
     buttons.take(FORGET)
     assert buttons.lesson.question == ASK[""]

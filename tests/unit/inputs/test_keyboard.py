@@ -8,47 +8,15 @@ from zteleop.inputs import Wish
 from zteleop.inputs.held_keys import FIRST, REPEATING
 from zteleop.inputs.keyboard import Keyboard
 from zteleop.messages import Channel, Vehicle
+from zteleop.testing import FakeTerminal
 
 DELETE = b"\x7f"
 UP, DOWN, RIGHT, LEFT = b"\x1b[A", b"\x1b[B", b"\x1b[C", b"\x1b[D"
 
 
-class Typed:
-    """A terminal of which a test types the keys."""
-
-    def __init__(self) -> None:
-        self.data = b""
-        self.gone = False
-        self.resumed = 0
-        self.calls: list[str] = []
-
-    def read(self) -> bytes:
-        if self.gone:
-            raise EOFError
-        data, self.data = self.data, b""
-        return data
-
-    def fileno(self) -> int:
-        return 7
-
-    def redraw(self) -> None:
-        self.calls.append("redraw")
-
-    def suspend(self) -> None:
-        self.calls.append("suspend")
-        self.resumed += 1
-
-    def __enter__(self) -> "Typed":
-        self.calls.append("enter")
-        return self
-
-    def __exit__(self, *exc: object) -> None:
-        self.calls.append("exit")
-
-
-class Bench:
+class Typist:
     def __init__(self, drive: str, vehicle: Vehicle | None, **settings: object) -> None:
-        self.terminal = Typed()
+        self.terminal = FakeTerminal()
         self.vehicle = vehicle
         self.keyboard = Keyboard(drive, terminal=self.terminal, **settings)
         if vehicle:
@@ -62,7 +30,7 @@ class Bench:
 
     def type(self, data: bytes, after: float = 0.0) -> bool:
         self.now += after
-        self.terminal.data = data
+        self.terminal.typed = data
         return self.keyboard.read(self.now)
 
     def stick(self, after: float = 0.0) -> Stick:
@@ -76,12 +44,12 @@ class Bench:
 
 @pytest.fixture
 def step(car):
-    return Bench("step", car)
+    return Typist("step", car)
 
 
 @pytest.fixture
 def hold(car):
-    return Bench("hold", car)
+    return Typist("hold", car)
 
 
 @pytest.mark.parametrize("keys", [UP + UP + RIGHT, b"wwd", b"WwD"])
@@ -118,7 +86,7 @@ def test_neutral_between_two_keys_that_came_at_once_is_told(step, keys, rested):
 @pytest.mark.parametrize("drive", ["step", "hold"])
 @pytest.mark.parametrize("key", [DELETE, b"\x08"])
 def test_backspace_is_neutral_and_a_wish_to_stop(car, drive, key):
-    bench = Bench(drive, car)
+    bench = Typist(drive, car)
     bench.type(UP + LEFT)
     assert bench.stick().deadman
     assert bench.wish() is None
@@ -129,7 +97,7 @@ def test_backspace_is_neutral_and_a_wish_to_stop(car, drive, key):
 
 @pytest.mark.parametrize("drive", ["step", "hold"])
 def test_a_key_held_through_a_stop_must_be_let_go_first(car, drive):
-    bench = Bench(drive, car)
+    bench = Typist(drive, car)
     bench.type(UP)
     bench.type(DELETE, after=0.1)
     bench.wish()
@@ -244,14 +212,14 @@ def test_a_key_held_for_long_keeps_the_idle_timer_away(step):
 
 def test_the_robot_may_shorten_the_idle_limit_and_never_lengthen_it(car):
     car.operator_silence = 2.0
-    assert Bench("step", car).keyboard.idle_limit == 2.0
+    assert Typist("step", car).keyboard.idle_limit == 2.0
     car.operator_silence = 60.0
-    assert Bench("step", car).keyboard.idle_limit == 5.0
+    assert Typist("step", car).keyboard.idle_limit == 5.0
 
 
 @pytest.mark.parametrize("drive", ["step", "hold"])
 def test_a_key_held_through_a_reset_must_be_let_go_first(car, drive):
-    bench = Bench(drive, car)
+    bench = Typist(drive, car)
     bench.type(UP)
     bench.keyboard.reset(bench.now + 0.1)
     assert bench.stick() == Stick()
@@ -275,7 +243,7 @@ def test_space_lets_held_keys_go(hold, key):
 
 
 def test_speed_keys_change_speeds_by_a_tenth_and_move_nothing(tank):
-    bench = Bench("hold", tank, speeds=Speeds(0.2, 1.0))
+    bench = Typist("hold", tank, speeds=Speeds(0.2, 1.0))
     bench.type(b"uk")
     assert bench.keyboard.speeds.forward == pytest.approx(0.22)
     assert bench.keyboard.speeds.turn == pytest.approx(0.9)
@@ -286,7 +254,7 @@ def test_speed_keys_change_speeds_by_a_tenth_and_move_nothing(tank):
 
 
 def test_speeds_stay_between_a_crawl_and_what_the_robot_can(tank):
-    bench = Bench("hold", tank)
+    bench = Typist("hold", tank)
     assert bench.keyboard.speeds == Speeds(0.3, 1.0)
     bench.type(b"u" * 50 + b"i" * 50)
     assert bench.keyboard.speeds == Speeds(0.3, 1.5)
@@ -333,18 +301,18 @@ def test_a_paste_does_not_drive(step):
 
 
 def test_keys_can_be_bound_without_touching_code(car):
-    bench = Bench("step", car, keys={"8": "forward", "Q": "neutral"})
+    bench = Typist("step", car, keys={"8": "forward", "Q": "neutral"})
     bench.type(b"88")
     assert bench.ticks() == (375, 372)
     bench.type(b"Q")
     assert bench.ticks() is None
     assert not bench.keyboard.finished
     with pytest.raises(ConfigError):
-        Bench("step", car, keys={"8": "fly"})
+        Typist("step", car, keys={"8": "fly"})
 
 
 def test_without_a_robot_it_stays_usable():
-    bench = Bench("step", None)
+    bench = Typist("step", None)
     bench.type(UP + LEFT + b" xuk")
     assert bench.stick() == Stick()
 
@@ -375,7 +343,7 @@ def test_any_keys_give_a_stick_in_range(drive, chunks, reset_at):
     channels = [
         Channel(name, i, 1.0, 2.0, 3.0, 290, 375, 460) for i, name in enumerate(("steering", "throttle"))
     ]
-    bench = Bench(drive, Vehicle("ackermann", channels, 1.0, 2.0, 0.25, 0.4, 5.0, 4.08, True))
+    bench = Typist(drive, Vehicle("ackermann", channels, 1.0, 2.0, 0.25, 0.4, 5.0, 4.08, True))
     for index, (data, after) in enumerate(chunks):
         bench.type(data, after)
         stick = bench.stick()

@@ -2,48 +2,15 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from rosbags.typesys import Stores, get_typestore
-from unit.interfaces.cdr.values import kinds
-from unit.interfaces.peer import fields_of
 
 from zteleop.errors import MessageError
 from zteleop.interfaces import cdr, distros, library
-from zteleop.interfaces.declared import declared
 from zteleop.interfaces.distros import CHANGED, adapted, changed, struct_for
 from zteleop.interfaces.structs import struct_of
 from zteleop.interfaces.type_hash import hash_of_kind
 from zteleop.messages import Header, Range, Time
 
 RANGE = "sensor_msgs/msg/Range"
-STORES = {
-    "humble": Stores.ROS2_HUMBLE,
-    "iron": Stores.ROS2_IRON,
-    "jazzy": Stores.ROS2_JAZZY,
-    "kilted": Stores.ROS2_KILTED,
-    "lyrical": Stores.ROS2_LYRICAL,
-}
-
-
-@pytest.mark.parametrize("distro", STORES)
-def test_types_are_what_the_distribution_has(distro: str) -> None:
-    store = get_typestore(STORES[distro])
-    shared = [kind.ros_type for kind in kinds() if kind.ros_type in store.fielddefs]
-    assert len(shared) > 140
-    for ros_type in shared:
-        ours = [(field.name, field.type) for field in declared(struct_for(ros_type, distro)).fields]
-        assert ours == fields_of(store, ros_type)
-
-
-@pytest.mark.parametrize("distro", STORES)
-def test_only_those_that_differ_are_others(distro: str) -> None:
-    theirs = get_typestore(STORES[distro])
-    differ = {
-        kind.ros_type
-        for kind in kinds()
-        if kind.ros_type in theirs.fielddefs
-        and [(field.name, field.type) for field in declared(kind).fields] != fields_of(theirs, kind.ros_type)
-    }
-    assert differ == changed(distro).keys()
 
 
 def test_a_range_of_humble_has_no_variance() -> None:

@@ -46,7 +46,7 @@ class Shelf:
         self.finished += 1
 
 
-class Bench:
+class Recorded:
     """A black box, with the watchdog's end of its pipe."""
 
     def __init__(self, node: FakeNode, clock: Clock) -> None:
@@ -91,19 +91,19 @@ class Bench:
 
 
 @pytest.fixture
-def bench(node: FakeNode, clock: Clock) -> Iterator[Bench]:
-    bench = Bench(node, clock)
+def bench(node: FakeNode, clock: Clock) -> Iterator[Recorded]:
+    bench = Recorded(node, clock)
     yield bench
     bench.close()
 
 
-def test_while_nothing_happens_nothing_is_written(bench: Bench) -> None:
+def test_while_nothing_happens_nothing_is_written(bench: Recorded) -> None:
     bench.tap.say("drive_status", DriveStatus.zero())
     bench.live(100.0)
     assert bench.shelf.files == []
 
 
-def test_what_follows_a_stop_is_kept_with_it(bench: Bench) -> None:
+def test_what_follows_a_stop_is_kept_with_it(bench: Recorded) -> None:
     bench.stop()
     bench.live(AFTERMATH - 0.1)
     assert bench.shelf.files == []
@@ -112,7 +112,7 @@ def test_what_follows_a_stop_is_kept_with_it(bench: Bench) -> None:
     assert bench.shelf.files == [(["stop"], 2)]
 
 
-def test_reasons_that_follow_each_other_are_one_file(bench: Bench) -> None:
+def test_reasons_that_follow_each_other_are_one_file(bench: Recorded) -> None:
     bench.stop(7)
     bench.live(0.5)
     bench.stop(8)
@@ -120,7 +120,7 @@ def test_reasons_that_follow_each_other_are_one_file(bench: Bench) -> None:
     assert bench.shelf.files == [(["stop", "stop"], 2)]
 
 
-def test_a_reason_soon_after_a_file_waits(bench: Bench) -> None:
+def test_a_reason_soon_after_a_file_waits(bench: Recorded) -> None:
     bench.stop(7)
     bench.live(2.0)
     bench.stop(8)
@@ -131,7 +131,7 @@ def test_a_reason_soon_after_a_file_waits(bench: Bench) -> None:
     assert bench.shelf.files[1:] == [(["stop", "stop"], 3)]
 
 
-def test_while_a_disk_is_slow_nothing_else_is_written(bench: Bench) -> None:
+def test_while_a_disk_is_slow_nothing_else_is_written(bench: Recorded) -> None:
     bench.stop()
     bench.shelf.busy = True
     bench.live(5.0)
@@ -141,13 +141,13 @@ def test_while_a_disk_is_slow_nothing_else_is_written(bench: Bench) -> None:
     assert len(bench.shelf.files) == 1
 
 
-def test_a_disk_that_refuses_is_said_once(bench: Bench) -> None:
+def test_a_disk_that_refuses_is_said_once(bench: Recorded) -> None:
     bench.shelf.trouble = "No space left on device"
     bench.live(5.0)
     assert bench.warnings == ["the black box cannot be kept: No space left on device"]
 
 
-def test_a_watchdog_that_ends_without_a_word_is_a_reason_at_once(bench: Bench) -> None:
+def test_a_watchdog_that_ends_without_a_word_is_a_reason_at_once(bench: Recorded) -> None:
     bench.tap.say("watchdog", WatchdogStatus.zero())
     bench.part()
     bench.hear_watchdog()
@@ -157,7 +157,7 @@ def test_a_watchdog_that_ends_without_a_word_is_a_reason_at_once(bench: Bench) -
     assert bench.shelf.finished
 
 
-def test_a_watchdog_that_says_farewell_is_none(bench: Bench) -> None:
+def test_a_watchdog_that_says_farewell_is_none(bench: Recorded) -> None:
     bench.part(LAST_WORD)
     bench.hear_watchdog()
     assert bench.node.stopped
@@ -165,7 +165,7 @@ def test_a_watchdog_that_says_farewell_is_none(bench: Bench) -> None:
     assert bench.shelf.files == []
 
 
-def test_a_robot_that_ends_in_good_order_writes_what_is_due(bench: Bench) -> None:
+def test_a_robot_that_ends_in_good_order_writes_what_is_due(bench: Recorded) -> None:
     bench.stop()
     bench.live(0.1)
     bench.part(LAST_WORD)
@@ -174,24 +174,24 @@ def test_a_robot_that_ends_in_good_order_writes_what_is_due(bench: Bench) -> Non
     assert bench.shelf.files == [(["stop"], 1)]
 
 
-def test_a_signal_alone_is_no_reason(bench: Bench) -> None:
+def test_a_signal_alone_is_no_reason(bench: Recorded) -> None:
     bench.end()
     assert bench.shelf.files == []
 
 
-def test_a_signal_because_the_watchdog_is_gone_is_one(bench: Bench) -> None:
+def test_a_signal_because_the_watchdog_is_gone_is_one(bench: Recorded) -> None:
     bench.part()
     bench.end()
     assert bench.shelf.files == [(["watchdog-ended"], 0)]
 
 
-def test_a_signal_after_the_farewell_is_none(bench: Bench) -> None:
+def test_a_signal_after_the_farewell_is_none(bench: Recorded) -> None:
     bench.part(LAST_WORD)
     bench.end()
     assert bench.shelf.files == []
 
 
-def test_a_last_message_is_heard(bench: Bench) -> None:
+def test_a_last_message_is_heard(bench: Recorded) -> None:
     bench.stop()
     bench.end()
     assert bench.shelf.files == [(["stop"], 1)]

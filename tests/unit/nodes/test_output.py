@@ -17,7 +17,7 @@ NEUTRAL = {0: 1509.6, 1: 1530.0}
 PULSES = {0: 1509.6, 1: 1600.0}
 
 
-class Bench:
+class Workshop:
     """A drive that wants to move, and its output."""
 
     def __init__(self, arming: float = 0.0) -> None:
@@ -52,14 +52,14 @@ class Bench:
 
 
 @pytest.fixture
-def bench() -> Bench:
-    bench = Bench()
+def bench() -> Workshop:
+    bench = Workshop()
     bench.step()
     bench.step()
     return bench
 
 
-def test_it_starts_at_neutral_and_writes_what_it_is_told(bench: Bench) -> None:
+def test_it_starts_at_neutral_and_writes_what_it_is_told(bench: Workshop) -> None:
     assert (bench.chip.log[0], bench.chip.writes[0]) == ("start", NEUTRAL)
     bench.output.write(PULSES, bench.now)
     assert bench.chip.pulses == PULSES
@@ -78,7 +78,7 @@ def test_a_chip_that_does_not_come_up_is_an_error() -> None:
 
 
 def test_neutral_is_held_while_the_esc_arms_after_every_start() -> None:
-    bench = Bench(arming=2.0)
+    bench = Workshop(arming=2.0)
     assert bench.step(1.99) == "starting"
     assert bench.drive.admission.holds.strongest.why == "neutral for 2 s while the ESC arms"
     bench.push()
@@ -87,7 +87,7 @@ def test_neutral_is_held_while_the_esc_arms_after_every_start() -> None:
     assert bench.step() == "idle", "what began while it armed moves it"
 
 
-def test_only_failed_steps_in_a_row_are_a_fault(bench: Bench) -> None:
+def test_only_failed_steps_in_a_row_are_a_fault(bench: Workshop) -> None:
     for _ in range(3):
         bench.chip.broken.add("write")
         for _ in range(FAILED_STEPS - 1):
@@ -101,7 +101,7 @@ def test_only_failed_steps_in_a_row_are_a_fault(bench: Bench) -> None:
     assert bench.state == "fault"
 
 
-def test_a_fault_is_said_in_words(bench: Bench) -> None:
+def test_a_fault_is_said_in_words(bench: Workshop) -> None:
     bench.chip.broken.add("write")
     for _ in range(FAILED_STEPS):
         bench.step()
@@ -109,14 +109,14 @@ def test_a_fault_is_said_in_words(bench: Bench) -> None:
     assert bench.drive.admission.holds.strongest.why == "the chip does not take a write"
 
 
-def test_a_chip_that_forgot_is_a_fault_although_writes_succeed(bench: Bench) -> None:
+def test_a_chip_that_forgot_is_a_fault_although_writes_succeed(bench: Workshop) -> None:
     bench.chip.broken.add("check")
     bench.output.check(bench.now)
     assert bench.state == "fault"
     assert bench.chip.log.count("check") == 2
 
 
-def test_a_single_disturbed_check_is_no_fault(bench: Bench) -> None:
+def test_a_single_disturbed_check_is_no_fault(bench: Workshop) -> None:
     def disturbed() -> None:
         bench.chip.check = lambda: None
         raise DeviceError("noise")
@@ -126,7 +126,7 @@ def test_a_single_disturbed_check_is_no_fault(bench: Bench) -> None:
     assert (bench.state, bench.said) == ("idle", [])
 
 
-def test_while_broken_nothing_but_neutral_is_written(bench: Bench) -> None:
+def test_while_broken_nothing_but_neutral_is_written(bench: Workshop) -> None:
     bench.break_down()
     bench.chip.broken -= {"write", "check"}
     before = list(bench.chip.writes)
@@ -140,7 +140,7 @@ def test_while_broken_nothing_but_neutral_is_written(bench: Bench) -> None:
     assert all(written == NEUTRAL for written in bench.chip.writes[len(before) :])
 
 
-def test_a_chip_at_fault_gets_neutral_first_and_at_every_step(bench: Bench) -> None:
+def test_a_chip_at_fault_gets_neutral_first_and_at_every_step(bench: Workshop) -> None:
     bench.break_down()
     bench.chip.log.clear()
     for _ in range(20):
@@ -150,7 +150,7 @@ def test_a_chip_at_fault_gets_neutral_first_and_at_every_step(bench: Bench) -> N
 
 
 def test_a_bus_on_which_neutral_takes_long_is_asked_for_nothing_more(
-    bench: Bench, monkeypatch: pytest.MonkeyPatch
+    bench: Workshop, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     bench.break_down()
     bench.chip.broken.clear()
@@ -165,7 +165,7 @@ def test_a_bus_on_which_neutral_takes_long_is_asked_for_nothing_more(
     assert bench.state == "idle"
 
 
-def test_it_is_repaired_at_once_and_then_ten_times_a_second(bench: Bench) -> None:
+def test_it_is_repaired_at_once_and_then_ten_times_a_second(bench: Workshop) -> None:
     bench.break_down()
     tries = []
     for _ in range(100):
@@ -179,14 +179,14 @@ def test_it_is_repaired_at_once_and_then_ten_times_a_second(bench: Bench) -> Non
     assert len(tries) >= 9
 
 
-def test_the_newest_reason_of_a_fault_is_shown(bench: Bench) -> None:
+def test_the_newest_reason_of_a_fault_is_shown(bench: Workshop) -> None:
     bench.chip.broken |= {"write", "start"}
     for _ in range(FAILED_STEPS + 1):
         bench.step()
     assert bench.drive.admission.holds.strongest.why == "the chip does not take a start"
 
 
-def test_repaired_it_is_at_neutral_and_what_was_held_moves_nothing(bench: Bench) -> None:
+def test_repaired_it_is_at_neutral_and_what_was_held_moves_nothing(bench: Workshop) -> None:
     bench.push()
     bench.step()
     assert bench.chip.pulses != NEUTRAL
@@ -208,7 +208,7 @@ def test_repaired_it_is_at_neutral_and_what_was_held_moves_nothing(bench: Bench)
 
 
 def test_repaired_the_esc_arms_once_more() -> None:
-    bench = Bench(arming=2.0)
+    bench = Workshop(arming=2.0)
     assert bench.step(2.0) == "idle"
     bench.break_down()
     assert bench.step() == "fault"
@@ -218,7 +218,7 @@ def test_repaired_the_esc_arms_once_more() -> None:
     assert bench.step(0.04) == "idle"
 
 
-def test_failures_before_a_repair_do_not_count_after_it(bench: Bench) -> None:
+def test_failures_before_a_repair_do_not_count_after_it(bench: Workshop) -> None:
     bench.chip.broken |= {"write"}
     for _ in range(FAILED_STEPS):
         bench.step()
@@ -229,19 +229,19 @@ def test_failures_before_a_repair_do_not_count_after_it(bench: Bench) -> None:
     assert bench.state == "idle"
 
 
-def test_neutral_that_is_not_taken_at_the_end_is_an_error(bench: Bench) -> None:
+def test_neutral_that_is_not_taken_at_the_end_is_an_error(bench: Workshop) -> None:
     bench.chip.broken.add("write")
     with pytest.raises(DeviceError):
         bench.output.rest()
 
 
-def stop(bench: Bench) -> None:
+def stop(bench: Workshop) -> None:
     bench.drive.admission.stop(Stop(engaged=True, id=7, by="ann@desk", why=""), bench.now)
     bench.step()
     bench.output.confirm()
 
 
-def test_what_the_chip_took_last_is_known_and_when(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_the_chip_took_last_is_known_and_when(bench: Workshop, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "clock", SimpleNamespace(now=lambda: bench.now))
     bench.step()
     assert bench.output.evidence == (NEUTRAL, bench.now, "")
@@ -253,7 +253,7 @@ def test_what_the_chip_took_last_is_known_and_when(bench: Bench, monkeypatch: py
     assert bench.output.evidence == (NEUTRAL, then, "")
 
 
-def test_a_stop_is_confirmed_by_what_is_read_back(bench: Bench) -> None:
+def test_a_stop_is_confirmed_by_what_is_read_back(bench: Workshop) -> None:
     bench.chip.log.clear()
     bench.output.check(bench.now)
     assert "read" not in bench.chip.log
@@ -270,7 +270,9 @@ def test_a_stop_is_confirmed_by_what_is_read_back(bench: Bench) -> None:
 
 
 @pytest.mark.parametrize("broken", ["read", "check", "write"])
-def test_a_chip_that_cannot_be_read_confirms_nothing_unless_it_is_cut_off(bench: Bench, broken: str) -> None:
+def test_a_chip_that_cannot_be_read_confirms_nothing_unless_it_is_cut_off(
+    bench: Workshop, broken: str
+) -> None:
     stop(bench)
     bench.chip.broken |= {broken, "start"}
     for _ in range(FAILED_STEPS):
@@ -281,7 +283,7 @@ def test_a_chip_that_cannot_be_read_confirms_nothing_unless_it_is_cut_off(bench:
     assert bench.output.evidence.confirmed == "cut"
 
 
-def test_a_chip_that_takes_no_neutral_any_more_confirms_nothing_from_then_on(bench: Bench) -> None:
+def test_a_chip_that_takes_no_neutral_any_more_confirms_nothing_from_then_on(bench: Workshop) -> None:
     stop(bench)
     bench.chip.broken |= {"write", "start"}
     for _ in range(FAILED_STEPS):
@@ -289,7 +291,7 @@ def test_a_chip_that_takes_no_neutral_any_more_confirms_nothing_from_then_on(ben
     assert bench.output.evidence.confirmed == ""
 
 
-def test_a_fault_is_not_hidden_by_a_stop(bench: Bench) -> None:
+def test_a_fault_is_not_hidden_by_a_stop(bench: Workshop) -> None:
     stop(bench)
     bench.break_down()
     assert bench.step() == "fault"
@@ -312,7 +314,7 @@ class SlowChip(MemoryChip):
 
 
 @pytest.fixture
-def slow(bench: Bench, clock: Clock) -> Bench:
+def slow(bench: Workshop, clock: Clock) -> Workshop:
     bench.chip = SlowChip(clock)
     bench.output = Output(bench.chip, bench.drive, bench.said.append)
     bench.output.start(bench.now)
@@ -325,7 +327,7 @@ def slow(bench: Bench, clock: Clock) -> Bench:
     return bench
 
 
-def test_a_slow_bus_is_a_fault_that_names_it_and_gets_neutral_and_nothing_else(slow: Bench) -> None:
+def test_a_slow_bus_is_a_fault_that_names_it_and_gets_neutral_and_nothing_else(slow: Workshop) -> None:
     for _ in range(SLOW_WRITES - 1):
         slow.push()
         assert slow.step() == "driving"
@@ -346,7 +348,7 @@ def test_a_slow_bus_is_a_fault_that_names_it_and_gets_neutral_and_nothing_else(s
     assert len(slow.said) == 1
 
 
-def test_a_bus_that_is_quick_again_may_be_driven_on_by_who_begins_anew(slow: Bench) -> None:
+def test_a_bus_that_is_quick_again_may_be_driven_on_by_who_begins_anew(slow: Workshop) -> None:
     for _ in range(SLOW_WRITES + 1):
         slow.push()
         slow.step()
@@ -363,7 +365,7 @@ def test_a_bus_that_is_quick_again_may_be_driven_on_by_who_begins_anew(slow: Ben
     assert slow.step() == "driving"
 
 
-def test_one_write_that_took_long_is_no_slow_bus(slow: Bench) -> None:
+def test_one_write_that_took_long_is_no_slow_bus(slow: Workshop) -> None:
     for _ in range(10):
         slow.chip.takes = SLOW + 0.01
         slow.push()
@@ -375,7 +377,7 @@ def test_one_write_that_took_long_is_no_slow_bus(slow: Bench) -> None:
 
 
 def test_channels_that_another_program_left_on_are_told_as_nothing_stops_them() -> None:
-    bench = Bench()
+    bench = Workshop()
     assert bench.said == []
     bench.chip.pulses |= {4: 1500.0, 7: None, 9: 900.0}
     bench.output.start(bench.now)
@@ -386,7 +388,7 @@ def test_channels_that_another_program_left_on_are_told_as_nothing_stops_them() 
     assert len(bench.said) == 1
 
 
-def test_what_was_read_back_before_is_no_word_of_the_next_stop(bench: Bench) -> None:
+def test_what_was_read_back_before_is_no_word_of_the_next_stop(bench: Workshop) -> None:
     stop(bench)
     bench.drive.admission.stop(Stop(engaged=False, id=7, by="ann@desk", why=""), bench.now)
     bench.step()
@@ -398,7 +400,7 @@ def test_what_was_read_back_before_is_no_word_of_the_next_stop(bench: Bench) -> 
     assert bench.output.evidence.confirmed == ""
 
 
-def test_a_stop_that_was_confirmed_is_not_on_a_bus_that_has_become_slow(slow: Bench) -> None:
+def test_a_stop_that_was_confirmed_is_not_on_a_bus_that_has_become_slow(slow: Workshop) -> None:
     slow.chip.takes = 0.0
     stop(slow)
     assert slow.output.evidence.confirmed == "read"
@@ -408,7 +410,7 @@ def test_a_stop_that_was_confirmed_is_not_on_a_bus_that_has_become_slow(slow: Be
     assert slow.output.evidence.confirmed == ""
 
 
-def test_writes_that_take_long_to_fail_are_the_fault_of_a_chip_that_does_not_answer(slow: Bench) -> None:
+def test_writes_that_take_long_to_fail_are_the_fault_of_a_chip_that_does_not_answer(slow: Workshop) -> None:
     slow.chip.broken.add("write")
     for _ in range(2 * SLOW_WRITES):
         slow.push()

@@ -89,6 +89,14 @@ def test_what_it_hears_goes_to_its_handler_or_waits() -> None:
     assert [message.data for message in inbox] == ["a", "a", "b", "b"]
 
 
+def test_each_function_for_a_topic_hears_it() -> None:
+    node, heard = FakeNode(), []
+    for _ in range(2):
+        node.on("chatter", String)(heard.append)
+    node.hear("chatter", String("a"))
+    assert [message.data for message in heard] == ["a", "a"]
+
+
 def test_what_it_says_is_kept_with_its_acts() -> None:
     node = FakeNode()
     publisher = node.publisher("chatter", String)

@@ -3,9 +3,9 @@
 import random
 
 import pytest
+from peers.test_cdr import same
 from rosbags.typesys import Stores, get_typestore
 from rosbags.typesys import store as their_store
-from unit.interfaces.cdr.test_peers import same
 from unit.interfaces.cdr.values import TIMES, anything, kinds
 
 from zteleop.interfaces import cdr
