@@ -15,7 +15,7 @@ test: .venv/installed-dev
 	@$(BIN)/python -m compileall -q zteleop
 	@said=$$(mktemp); $(BIN)/pytest tests/unit >$$said 2>&1 & units=$$!; \
 	$(BIN)/pytest --numprocesses 3 --dist loadfile --no-loadscope-reorder --durations 20 \
-		tests/peers tests/system tests/faults tests/fuzz; order=$$?; \
+		tests/sweeps tests/peers tests/system tests/faults tests/fuzz; order=$$?; \
 	wait $$units; units=$$?; cat $$said; rm $$said; \
 	$(BIN)/pytest --durations 20 tests/timing && exit $$((order | units))
 
@@ -43,8 +43,8 @@ bench: .venv/installed-dev
 # all that strangers do, an hour of driving under load.
 soak: .venv/installed-dev
 	$(BIN)/zteleop chaos --times 50
-	ZTELEOP_STEPS=2_000_000 $(BIN)/pytest --timeout 0 tests/unit/control/test_states.py
-	$(BIN)/pytest --timeout 0 --hypothesis-profile long tests/unit tests/peers
+	ZTELEOP_STEPS=2_000_000 $(BIN)/pytest --timeout 0 tests/sweeps/test_states.py
+	$(BIN)/pytest --timeout 0 --hypothesis-profile long tests/unit tests/sweeps tests/peers
 	cd tests && ../$(BIN)/python -m faults.matrix
 	cd tests && ../$(BIN)/python -m faults.link.table
 	cd tests && ../$(BIN)/python -m faults.endurance

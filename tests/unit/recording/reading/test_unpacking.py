@@ -10,9 +10,8 @@ from zteleop.errors import ConfigError
 from zteleop.recording.reading import unpacking
 from zteleop.recording.reading.unpacking import LARGEST, unpack
 
-DATA = b"".join(
-    random.Random(n).choice([b"hello world", bytes(9), bytes([n % 256]) * 5]) for n in range(60_000)
-)
+DICE = random.Random(0)
+DATA = b"".join(DICE.choice((b"hello world", bytes(9), bytes([n % 256]) * 5)) for n in range(60_000))
 PACK: dict[str, Callable[[bytes], bytes]] = {"zstd": zstandard.compress, "lz4": lz4.frame.compress}
 
 
