@@ -72,9 +72,10 @@ class Stops:
         def join() -> None:
             try:
                 joined.append(_options.join_for_any("stop", settings, settle))
-            except BaseException as error:
+            except BaseException as error:  # a panic of zenoh's is no Exception
                 joined.append(error)
 
+        # by hand, as a stop's first word would wait 8 ms for the import of concurrent.futures
         joining = threading.Thread(target=join)
         joining.start()
         while joining.is_alive():

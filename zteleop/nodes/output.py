@@ -6,7 +6,7 @@ from contextlib import suppress
 from zteleop.bus import clock
 from zteleop.control.drive import Drive
 from zteleop.control.evidence import Evidence
-from zteleop.control.pace import SLOW, Pace
+from zteleop.control.slowness import SLOW, Slowness
 from zteleop.drivers import PulseDriver
 from zteleop.drivers.registers import CHANNELS
 from zteleop.errors import DeviceError
@@ -31,7 +31,7 @@ class Output:
         self._written = 0.0
         self._failed = 0
         """Writes in a row."""
-        self._bus = Pace()
+        self._slowness = Slowness()
         self._broken = False
         self._reads_rest = False
         self.is_cut = False
@@ -72,7 +72,7 @@ class Output:
 
         Not on a slow bus, where whatever is read holds up the next neutral.
         """
-        if not self._broken and not self._bus.is_slow:
+        if not self._broken and not self._slowness.is_slow:
             try:
                 self._look_twice()
             except DeviceError as error:
@@ -82,7 +82,7 @@ class Output:
     def confirm(self) -> None:
         """Read back whether a robot that is stopped stands; what cannot be read is not known."""
         self._reads_rest = False
-        if self._admission.latch.stops and not self._broken and not self._bus.is_slow:
+        if self._admission.latch.stops and not self._broken and not self._slowness.is_slow:
             with suppress(DeviceError):
                 self._reads_rest = self._calibration.at_rest(self._driver.read(self._neutral_us))
 
@@ -123,13 +123,13 @@ class Output:
 
     def _notice_slowness(self, took: float, now: float) -> None:
         """Keep the robot at rest on a bus that is slow: each command, and each neutral, would come late."""
-        self._bus.count(took)
-        if self._bus.drags:
+        self._slowness.count(took)
+        if self._slowness.lasts:
             words = f"its bus is slow: a write took {took * 1000:.0f} ms, of at most {SLOW * 1000:.0f}"
             if SLOWNESS not in self._admission.holds:
                 self._tell(f"the chip is at fault: {words}")
             self._admission.hold(SLOWNESS, "fault", f"{words}; look at its wires, pull-ups and clock", now)
-        elif self._bus.runs and SLOWNESS in self._admission.holds:
+        elif self._slowness.is_over and SLOWNESS in self._admission.holds:
             self._tell("the bus of the chip is quick again")
             self._admission.free(SLOWNESS, now)
 

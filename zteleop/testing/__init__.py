@@ -1,11 +1,11 @@
 """Robots in tests: a node without a bus, a chip without wires, and time that passes when a test says so.
 
-from zteleop.testing import FakeNode
+For a program that does something with a node:
 
-node = FakeNode(robot="archangel")
-turn_in_circles(node)               # what the program does with its node
-node.live(3.0)                      # three seconds of its timers, the first time at once
-assert len(node.said["cmd_vel"].messages) == 4
+    node = FakeNode(robot="archangel")
+    turn_in_circles(node)
+    node.live(3.0)  # three seconds of its timers, the first time at once
+    assert len(node.said["cmd_vel"].messages) == 4
 """
 
 from zteleop.testing.chip import MemoryChip

@@ -4,8 +4,8 @@ from collections.abc import Callable, Iterator
 from types import SimpleNamespace
 from typing import Any, Self
 
-from zteleop.control.proof import NEVER
-from zteleop.messages import Beat, Message, Refusals, Vehicle
+from zteleop.bus.heard import Heard
+from zteleop.messages import Beat, Message, Vehicle
 from zteleop.testing.clock import Clock
 from zteleop.testing.link import Link
 from zteleop.testing.loop import Action, FakeLoop
@@ -76,22 +76,12 @@ class Inbox:
         return message
 
 
-class Robot:
-    """What is heard of a robot, as a test has it."""
+class Robot(Heard):
+    """What is heard of a robot, as a test has it: nobody else says anything."""
 
     def __init__(self) -> None:
-        self.beat: Beat | None = None
-        self.vehicle: Vehicle | None = None
-        self.at = NEVER
-        self.refusals: Refusals | None = None
-
-    @property
-    def there(self) -> bool:
-        return self.beat is not None and self.vehicle is not None
-
-    @property
-    def ready(self) -> bool:
-        return self.there and self.vehicle is not None and self.vehicle.ready
+        nobody: Any = Inbox()
+        super().__init__(nobody, nobody, nobody)
 
     def wait(self) -> bool:
         return self.there
@@ -122,8 +112,8 @@ class FakeMembership:
 class FakeNode:
     """A `Node` to hand to a program under test; its log is three lists of sentences.
 
-    It checks neither types nor names, and its robot is always there. What is said on one topic is kept
-    together, whoever says it.
+    It checks neither types nor names, and `await_robot` finds its robot at once. What is said on one topic is
+    kept together, whoever says it. Once it was stopped its timers run no more.
     """
 
     def __init__(

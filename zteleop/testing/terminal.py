@@ -6,9 +6,6 @@ from typing import Self
 class FakeTerminal:
     """Reads what is put into `typed`; keeps what was asked of it."""
 
-    color = False
-    unicode = True
-
     def __init__(self) -> None:
         self.typed = b""
         self.gone = False

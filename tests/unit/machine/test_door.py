@@ -103,6 +103,12 @@ def test_of_those_that_break_in_a_row_each_comes_later(opened: House) -> None:
     assert "another opens in 0.4 s, and nobody drives meanwhile" in opened.words[-2]
 
 
+def test_one_that_broke_is_open_no_more(opened: House) -> None:
+    opened.kill()
+    opened.until(lambda: opened.words)
+    assert (opened.door.is_open, opened.door.starts) == (False, 1)
+
+
 def test_one_that_was_long_open_does_not_count_as_in_a_row(
     opened: House, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -4,9 +4,9 @@ from types import SimpleNamespace
 import pytest
 
 from zteleop.control.drive import Drive
-from zteleop.control.pace import QUICK_WRITES, SLOW, SLOW_WRITES
 from zteleop.control.proof import Prover
 from zteleop.control.settings import DriveSettings
+from zteleop.control.slowness import QUICK_WRITES, SLOW, SLOW_WRITES
 from zteleop.errors import DeviceError
 from zteleop.messages import Beat, Pwm, Stop
 from zteleop.nodes import output as module

@@ -12,7 +12,8 @@ from zteleop.bus.publisher import Publisher
 from zteleop.bus.subscription import Subscription
 from zteleop.drivers import PulseDriver
 from zteleop.messages import String
-from zteleop.testing import FakeNode, Inbox, Link, MemoryChip, Said
+from zteleop.terminal.terminal import Terminal
+from zteleop.testing import FakeNode, FakeTerminal, Inbox, Link, MemoryChip, Said
 from zteleop.testing.loop import FakeLoop
 from zteleop.testing.node import FakeMembership
 
@@ -31,6 +32,7 @@ def face(kind: type) -> dict[str, list[tuple[str, object, object]]]:
     [
         (Node, FakeNode, set()),
         (PulseDriver, MemoryChip, set()),
+        (Terminal, FakeTerminal, {"size", "draw"}),
         (Publisher, Said, set()),
         (Subscription, Inbox, {"read"}),
         (Loop, FakeLoop, {"call_soon", "call_next", "fail", "close", "run", "run_once"}),
@@ -66,6 +68,14 @@ def test_timers_run_when_they_are_due_until_it_is_stopped() -> None:
         ("other", 1.2),
     ]
     assert node.stopped
+
+
+def test_what_is_due_at_the_same_time_does_not_run_once_it_is_stopped() -> None:
+    node, log = FakeNode(), []
+    node.every(1.0)(node.stop)
+    node.every(1.0)(lambda: log.append("ran"))
+    node.live(5.0)
+    assert log == []
 
 
 def test_an_alarm_rings_once_when_it_is_told_to() -> None:

@@ -1,4 +1,4 @@
-"""Whether a chip's bus is quick enough to drive on, by what its writes take."""
+"""Whether a chip's bus is too slow to drive on, by what its writes take."""
 
 SLOW = 0.05
 """s for a write, beyond which nothing more is asked of the bus in that step"""
@@ -6,8 +6,8 @@ SLOW_WRITES, QUICK_WRITES = 3, 25
 """in a row make a bus that is too slow to drive on, or one that is so no more"""
 
 
-class Pace:
-    """Writes in a row that were slow, or quick."""
+class Slowness:
+    """Counts writes in a row that were slow, or quick."""
 
     def __init__(self) -> None:
         self._slow = 0
@@ -28,11 +28,11 @@ class Pace:
         return self._slow > 0
 
     @property
-    def drags(self) -> bool:
+    def lasts(self) -> bool:
         """It is too slow to drive on."""
         return self._slow >= SLOW_WRITES
 
     @property
-    def runs(self) -> bool:
-        """It is surely slow no more."""
+    def is_over(self) -> bool:
+        """There was none for so long that the bus is surely quick again."""
         return self._quick >= QUICK_WRITES
