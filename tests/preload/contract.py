@@ -5,10 +5,11 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from typing import Any, TypeVar
+from unittest.mock import patch
 
 import pytest
 
-from zteleop.drivers import PulseDriver
+from zteleop.drivers import PulseDriver, port
 from zteleop.drivers.faults import Faults
 from zteleop.drivers.i2c import I2C
 from zteleop.drivers.pca9685 import Pca9685, Pca9685Settings
@@ -73,6 +74,12 @@ class Bench:
 
 Case = Callable[[Bench], None]
 CASES: list[Case] = []
+
+
+def hold(case: Case, bench: Bench) -> None:
+    """Try a case in which every attempt counts, however long the machine stands still between two."""
+    with patch.object(port, "TRIED_FOR", float("inf")):
+        case(bench)
 
 
 def case(function: Case) -> Case:

@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 from smbus2 import SMBus, i2c_msg
 
-from preload.contract import CASES, Bench, Case, fails
+from preload.contract import CASES, Bench, Case, fails, hold
 from zteleop.drivers import PulseDriver, open_driver
 from zteleop.drivers.faults import Faults
 from zteleop.drivers.i2c import I2C, Block, open_i2c
@@ -160,7 +160,7 @@ def run(case: Case, path: str) -> str | None:
     """Return what went wrong, if anything."""
     bench = DeviceBench(path)
     try:
-        case(bench)
+        hold(case, bench)
     except (Exception, pytest.fail.Exception):
         return traceback.format_exc()
     finally:

@@ -31,7 +31,7 @@ class Run:
         environment = os.environ | {"PYTHONPATH": f"{TESTS}:{TESTS.parent}"}
         command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", *self._options, "test_it.py"]
         done = subprocess.run(
-            command, cwd=self.folder, env=environment, capture_output=True, text=True, timeout=PATIENCE
+            command, cwd=self.folder, env=environment, capture_output=True, text=True, timeout=5 * PATIENCE
         )
         return done.returncode, done.stdout + done.stderr
 

@@ -1,6 +1,7 @@
 """What is typed and what is answered: every verb as a process beside a running actuator."""
 
 import json
+import re
 import shlex
 import signal
 import subprocess
@@ -19,8 +20,6 @@ Result = subprocess.CompletedProcess
 TOPICS = [
     "/bench/beat",
     "/bench/cmd_vel",
-    "/bench/cmd_vel_stamped",
-    "/bench/controls",
     "/bench/drive_status",
     "/bench/log",
     "/bench/pwm",
@@ -94,8 +93,10 @@ def test_list_is_complete_on_its_first_run(rig: Rig) -> None:
 def test_list_shows_types_and_who_is_there(rig: Rig) -> None:
     lines = ask(rig, "list", "-t", "-v").stdout.splitlines()
     command = lines.index("/bench/cmd_vel [geometry_msgs/msg/TwistStamped]")
-    assert lines[command + 1].startswith("    sub actuator on ")
-    assert f"/bench/controls [{MESSAGES['zteleop_msgs/msg/Pwm'].ros_type}]" in lines
+    assert lines[command + 1] == "    also cmd_vel_stamped"
+    assert lines[command + 2].startswith("    sub actuator on ")
+    pwm = lines.index(f"/bench/pwm [{MESSAGES['zteleop_msgs/msg/Pwm'].ros_type}]")
+    assert lines[pwm + 1] == "    also controls"
     assert any("pub actuator on" in line and "beat [zteleop_msgs/msg/Beat]" in line for line in lines)
 
 
@@ -138,7 +139,64 @@ def test_echo_finds_the_only_robot_there_is(rig: Rig) -> None:
 
 def test_echo_gives_up_after_its_timeout(rig: Rig) -> None:
     result = ask(rig, "echo", "battery_state", "--timeout", "0.1")
-    is_one_sentence(result, "echo", "nothing was said on robot/bench/battery_state for 0.1 s", "zteleop list")
+    is_one_sentence(result, "echo", "for 0.1 s nothing was said on bench/battery_state: nobody publishes it")
+
+
+@pytest.mark.parametrize(
+    ("topic", "words"),
+    [
+        ("bench/odmo", "bench/odmo: nobody publishes it; did you mean odom?"),
+        ("bench/odom", "bench/odom: nobody publishes it yet"),
+        ("/bensh/odom", "bensh/odom: nobody publishes it; robot bensh is not heard; heard here: bench"),
+    ],
+)
+def test_echo_says_once_for_whom_it_waits_and_waits_on(
+    rig: Rig, stranger: zenoh.Session, topic: str, words: str
+) -> None:
+    echo = rig.run("echo", topic, "--no-multicast-scouting", "-e", rig.endpoint)
+    echo.says(f"zteleop echo: waits for {words}")
+    with stranger.declare_publisher(f"robot/{topic.strip('/')}") as publisher:
+        until(lambda: publisher.matching_status.matching, "somebody who listens")
+        publisher.put('{"data": "at last"}', encoding="application/json")
+        echo.says("data: at last")
+    assert echo.text.count("waits for") == 1
+    echo.signal(signal.SIGINT)
+    assert echo.ends() == 130
+
+
+def test_pub_says_who_hears(rig: Rig) -> None:
+    echo = rig.join("echo", "soil")
+    echo.says("waits for bench/soil")
+    result = ask(rig, "pub", "soil", "String", "{data: dry}", "--once")
+    assert result.returncode == 0
+    assert re.fullmatch(r"zteleop pub: echo on \S+ hears it\n", result.stderr)
+    echo.signal(signal.SIGINT)
+    assert echo.ends() == 130
+
+
+def test_pub_fails_where_nobody_hears_and_says_what_was_meant(rig: Rig) -> None:
+    result = ask(rig, "pub", "cmdvel", "Twist", "{linear: {x: 0.2}}", "--once")
+    assert result.returncode == 1
+    assert result.stderr.splitlines() == [
+        "zteleop pub: waits for who hears bench/cmdvel: nobody hears it; did you mean cmd_vel?",
+        "zteleop pub: said to nobody: nobody hears it; did you mean cmd_vel?",
+    ]
+
+
+def test_a_second_simulation_of_a_robot_is_refused(rig: Rig) -> None:
+    first = rig.join("sim")
+    first.says("sim: info: moves bench, a simulated car, by the pulses in ")
+    rig.join("echo", "odom").says("child_frame_id: base_link")
+    is_one_sentence(
+        ask(rig, "sim"), "sim", "robot bench is simulated already, by ", "end that, or say --robot"
+    )
+    first.signal(signal.SIGINT)
+    assert first.ends() == 130
+
+
+def test_a_simulation_says_that_nobody_moves_it(rig: Rig) -> None:
+    sim = rig.run("sim", "--robot", "lonely", "--no-multicast-scouting", "-e", rig.endpoint)
+    sim.says("waits for pulses: no actuator is heard; start zteleop actuator --robot lonely")
 
 
 def test_echo_prints_a_type_that_nobody_knows(rig: Rig, stranger: zenoh.Session) -> None:
@@ -331,6 +389,4 @@ def test_check_says_when_there_is_no_file(rig: Rig) -> None:
 
 def test_pub_says_when_no_robot_answers(lost: Process) -> None:
     assert lost.ends() == 1
-    assert (
-        lost.text == "zteleop pub: robot ghost does not answer; is its actuator on? zteleop list shows who is"
-    )
+    assert lost.text == "zteleop pub: robot ghost does not answer; is its actuator on? heard here: bench"

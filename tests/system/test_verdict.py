@@ -131,7 +131,7 @@ class Run:
         }
         command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "-sv", "test_it.py"]
         done = subprocess.run(
-            command, cwd=self.folder, env=environment, capture_output=True, text=True, timeout=PATIENCE
+            command, cwd=self.folder, env=environment, capture_output=True, text=True, timeout=5 * PATIENCE
         )
         return done.returncode, done.stdout + done.stderr
 

@@ -91,7 +91,9 @@ def test_functions_are_short(nodes: list[tuple[Path, ast.ClassDef | ast.Function
     assert quantiles(lengths, n=10)[-1] <= 14
 
 
-def test_no_class_holds_more_than_fits_into_a_head(nodes: list[tuple[Path, ast.ClassDef | ast.FunctionDef]]) -> None:
+def test_no_class_holds_more_than_fits_into_a_head(
+    nodes: list[tuple[Path, ast.ClassDef | ast.FunctionDef]],
+) -> None:
     """What ROS says in one message, and what a status tells, is as long as it is."""
     classes = [
         node for path, node in nodes if isinstance(node, ast.ClassDef) and path.parent.name != "messages"
@@ -99,7 +101,9 @@ def test_no_class_holds_more_than_fits_into_a_head(nodes: list[tuple[Path, ast.C
     assert {node.name: len(held) for node in classes if len(held := fields(node)) > 14} == {}
 
 
-def test_constructors_name_one_attribute_a_line(nodes: list[tuple[Path, ast.ClassDef | ast.FunctionDef]]) -> None:
+def test_constructors_name_one_attribute_a_line(
+    nodes: list[tuple[Path, ast.ClassDef | ast.FunctionDef]],
+) -> None:
     """But for pairs that come from one call."""
     crowded = [
         f"{path.relative_to(ROOT)}:{assign.lineno}"

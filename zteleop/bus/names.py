@@ -24,6 +24,9 @@ class Name(NamedTuple):
     def key(self) -> str:
         return f"robot/{self.robot}/{self.path}"
 
+    def __str__(self) -> str:
+        return f"{self.robot}/{self.path}"
+
 
 def is_robot(text: str) -> bool:
     """Say whether a text can be a robot's name."""

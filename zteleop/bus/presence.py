@@ -108,6 +108,11 @@ def holders(session: Session, robot: str, node: str) -> list[str]:
     return sorted(key.rpartition("/")[2] for key in _tokens(session, f"robot/{robot}/live/node/{node}/*"))
 
 
+def rivals(session: Session, robot: str, node: str, before: Iterable[str]) -> list[str]:
+    """Return who goes first of those that run a node: who did before, and of several at once the lesser."""
+    return sorted({*before, *(holder for holder in holders(session, robot, node) if holder < process())})
+
+
 def robots(session: Session) -> list[str]:
     """Return the robots that have an actuator."""
     found = {key.split("/")[1] for key in _tokens(session, "robot/*/live/node/actuator/*")}

@@ -34,7 +34,8 @@ _SESSIONS = 200
 """for the same: each costs 90 kB, and a class of thirty has some 120; with the connections that say nothing
 they are fewer than the 1024 files a process may usually have open"""
 _RETRY = 0.1
-_QUIET, _SETTLED = 0.06, 0.5
+_LOOK_EVERY, _QUIET, _LOOKS = 0.005, 12, 100
+"""s between two looks at who is there; how many of them find nobody new, and how many there are at most"""
 
 
 def open_zenoh(
@@ -90,14 +91,16 @@ def _settled(session: zenoh.Session, settle: bool) -> zenoh.Session:
 
 
 def _await_quiet(session: zenoh.Session) -> None:
+    """Wait until nobody new is found for a while, by looks: where looks come late, so does who is found."""
     found: set[str] = set()
-    quiet_at = time.monotonic() + _QUIET
-    end = time.monotonic() + _SETTLED
-    while time.monotonic() < min(quiet_at, end):
+    quiet = 0
+    for _ in range(_LOOKS):
         now_found = {str(peer) for peer in [*session.info.peers_zid(), *session.info.routers_zid()]}
-        if now_found != found:
-            found, quiet_at = now_found, time.monotonic() + _QUIET
-        time.sleep(0.005)
+        quiet = quiet + 1 if now_found == found else 0
+        if quiet >= _QUIET:
+            return
+        found = now_found
+        time.sleep(_LOOK_EVERY)
 
 
 def _configure(

@@ -1,20 +1,23 @@
 import argparse
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import suppress
 from typing import Any
 
 import msgspec
 
-from zteleop.bus import codec
+from zteleop.bus import codec, presence
 from zteleop.bus.escape import printable
 from zteleop.bus.names import resolve
 from zteleop.bus.session import Ring, Sample, open_session
 from zteleop.bus.topics import topic_of
-from zteleop.cli import _options
+from zteleop.cli import _company, _options
 from zteleop.errors import BusError, MessageError
 
 DEPTH = 100
+TELL_AFTER = 1.0
+"""s of silence at the start until it says for whom it waits"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -30,26 +33,43 @@ def run(arguments: argparse.Namespace) -> None:
     robot = _options.robot_of(arguments.topic, settings)
     with open_session(settings.bus, settle=robot is None) as session:
         name = resolve(arguments.topic, robot or _options.find_robot(session, settings))
-        command = topic_of(name.path).command and "/" not in name.path
-        key = f"{name.key}/**" if command else name.key
-        for sample in _samples(session.subscribe(key, DEPTH), arguments.timeout, name.key):
+        about = topic_of(name.path)
+        key = f"{name.key}/**" if about.command and "/" not in name.path else name.key
+        ring = session.subscribe(key, DEPTH)
+        session.declare_token(presence.endpoint_key(name, "sub", "echo", about.types))
+
+        def why_silent() -> str:
+            return printable(f"{name}: {_company.why_silent(name, presence.endpoints(session))}")
+
+        for sample in _samples(ring, arguments.timeout, why_silent):
             if _print(sample, arguments.json) and arguments.once:
                 return
 
 
-def _samples(ring: Ring, timeout: float | None, key: str) -> Iterator[Sample]:
-    while timeout is None:
-        try:
-            yield ring.recv()
-        except EOFError:  # the session is closed
-            return
-    while True:
-        give_up = time.monotonic() + timeout
-        while (sample := ring.try_recv()) is None:
-            if not time.monotonic() <= give_up:  # NaN as well
-                raise BusError(f"nothing was said on {key} for {timeout:g} s; zteleop list shows the topics")
-            time.sleep(0.002)
+def _samples(ring: Ring, timeout: float | None, why_silent: Callable[[], str]) -> Iterator[Sample]:
+    """Yield what is said; whoever waits for long is told once for whom."""
+    patient = timeout is None or timeout > TELL_AFTER
+    sample = _wait(ring, TELL_AFTER if patient else timeout)
+    if sample is None and patient:
+        print(f"zteleop echo: waits for {why_silent()}", file=sys.stderr, flush=True)
+        sample = _wait(ring, None if timeout is None else timeout - TELL_AFTER)
+    while sample:
         yield sample
+        sample = _wait(ring, timeout)
+    if timeout is not None:
+        raise BusError(f"for {timeout:g} s nothing was said on {why_silent()}")
+
+
+def _wait(ring: Ring, timeout: float | None) -> Sample | None:
+    """Return the next sample; None after a silence, or when the session is closed."""
+    if timeout is None:
+        with suppress(EOFError):
+            return ring.recv()
+        return None
+    give_up = time.monotonic() + timeout
+    while (sample := ring.try_recv()) is None and time.monotonic() <= give_up:  # NaN as well
+        time.sleep(0.002)
+    return sample
 
 
 def _print(sample: Sample, as_json: bool) -> bool:

@@ -4,7 +4,7 @@ from zteleop.bus import presence
 from zteleop.bus.presence import Endpoint
 from zteleop.bus.session import open_session
 from zteleop.bus.topics import topic_of
-from zteleop.cli import _options
+from zteleop.cli import _company, _options
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -23,22 +23,12 @@ def run(arguments: argparse.Namespace) -> int:
         where = settings.robot or "a robot"
         print(f"nobody speaks for {where}; start one with: zteleop demo, or zteleop actuator")
         return 1
-    for name, members in _by_topic(endpoints).items():
+    for name, members in _company.by_topic(endpoints).items():
         print(_line(name, members, arguments.show_types))
         if arguments.verbose:
+            print("".join(f"    also {alias}\n" for alias in topic_of(name.split("/", 2)[2]).aliases), end="")
             print("\n".join(f"    {m.kind} {m.node} on {m.process}: {m.topic} [{m.type}]" for m in members))
     return 0
-
-
-def _by_topic(endpoints: list[Endpoint]) -> dict[str, list[Endpoint]]:
-    """Group by topic; a command topic's sources are one, and stand under each of its names."""
-    found: dict[str, list[Endpoint]] = {}
-    for endpoint in endpoints:
-        topic = topic_of(endpoint.topic)
-        names = (topic.name, *topic.aliases) if topic.types else (endpoint.topic,)
-        for name in names:
-            found.setdefault(f"/{endpoint.robot}/{name}", []).append(endpoint)
-    return dict(sorted(found.items()))
 
 
 def _line(name: str, members: list[Endpoint], show_types: bool) -> str:

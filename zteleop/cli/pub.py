@@ -1,14 +1,16 @@
 import argparse
+import sys
 from contextlib import suppress
 
 import msgspec
 
-from zteleop.bus import clock
-from zteleop.bus.names import resolve
+from zteleop.bus import clock, presence
+from zteleop.bus.escape import printable
+from zteleop.bus.names import Name, resolve
 from zteleop.bus.node import Node
 from zteleop.bus.publisher import Publisher
 from zteleop.bus.topics import topic_of
-from zteleop.cli import _options
+from zteleop.cli import _company, _options
 from zteleop.control.resume import Resume
 from zteleop.control.settings import SOURCES
 from zteleop.errors import BusError, ConfigError
@@ -17,8 +19,11 @@ from zteleop.messages import DriveStatus, Message, message_type
 from zteleop.text import yaml_text
 
 HEARD_WITHIN = 3.0
+"""s to wait for somebody who hears a topic"""
+TELL_AFTER = 1.0
+"""s of that until it says for whom it waits"""
 SETTLE = 0.1
-"""s in which others who hear a topic are found; a robot's black box, which hears all, is often the first"""
+"""s in which others who hear it are found"""
 OBEYED_FOR = SOURCES["program"].silence
 """s after a last command in which its robot still obeys, unless whoever said it leaves"""
 
@@ -50,9 +55,11 @@ def run(arguments: argparse.Namespace) -> None:
         name = resolve(arguments.topic, node.robot)
         publisher = node.publisher(f"/{name.robot}/{name.path}", kind, wait=False)
         command = topic_of(name.path).command
-        _wait(node, publisher, command)
+        heard = _await_robot(node, publisher) if command else _await_hearer(node, publisher, name)
         resume = Resume(publisher.sender) if arguments.resume and publisher.sender else None
         _say(node, publisher, message, arguments.rate, times, resume, OBEYED_FOR if command else 0.0)
+        if times is not None and not (heard or _hears(node, publisher, name)):
+            raise BusError(f"said to nobody: {_who_hears(node, name)}")
 
 
 def _say(
@@ -98,18 +105,39 @@ def _is_command(topic: str, robot: str | None) -> bool:
     return topic_of(topic).command  # of whichever robot there is
 
 
-def _wait(node: Node, publisher: Publisher[Message], command: bool) -> None:
-    """Wait until somebody hears; for a command until the robot that it proves its age to has started."""
+def _await_robot(node: Node, publisher: Publisher[Message]) -> bool:
+    """Wait until the robot that a command proves its age to has started; BusError when it does not answer."""
     heard = node.membership.heard()
-    matched = node.membership.until(lambda: publisher.matched and (heard.beat or not command), HEARD_WITHIN)
-    if command and not matched:
-        raise BusError(f"robot {node.robot} does not answer; is its actuator on? zteleop list shows who is")
-    if command:
-        heard.wait()
-    elif matched:
+    if not node.membership.until(lambda: publisher.matched and heard.beat, HEARD_WITHIN):
+        here = _company.who_is_here(presence.robots(node.membership.session))
+        raise BusError(f"robot {node.robot} does not answer; is its actuator on? {here}")
+    heard.wait()
+    return True
+
+
+def _await_hearer(node: Node, publisher: Publisher[Message], name: Name) -> bool:
+    """Wait for somebody who hears a topic, and say who does; False when nobody is known to."""
+    start, told = clock.now(), False
+    while not (heard := _hears(node, publisher, name)) and (waited := clock.now() - start) < HEARD_WITHIN:
+        if waited > TELL_AFTER and not told:
+            print(f"zteleop pub: waits for who hears {name}: {_who_hears(node, name)}", file=sys.stderr)
+            told = True
         node.spin(SETTLE)
-    else:
-        print("nobody hears this yet", flush=True)
+    node.spin(SETTLE)
+    if heard:
+        print(f"zteleop pub: {_who_hears(node, name)}", file=sys.stderr)
+    return heard
+
+
+def _hears(node: Node, publisher: Publisher[Message], name: Name) -> bool:
+    """Say whether anybody hears; a robot's black box hears whatever is said, and is nobody it is said to."""
+    session = node.membership.session
+    known = bool(_company.members(name, "sub", presence.endpoints(session)))
+    return publisher.matched and (known or not presence.holders(session, name.robot, "blackbox"))
+
+
+def _who_hears(node: Node, name: Name) -> str:
+    return printable(_company.who_hears(name, presence.endpoints(node.membership.session)))
 
 
 def _rate_hz(text: str) -> float:

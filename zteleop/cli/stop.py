@@ -9,6 +9,7 @@ from zteleop.bus.escape import printable
 from zteleop.bus.lane.call import Call
 from zteleop.bus.node import Node
 from zteleop.cli import _options
+from zteleop.cli._company import who_is_here
 from zteleop.config import Config
 from zteleop.errors import BusError
 from zteleop.messages import DriveStatus
@@ -108,7 +109,10 @@ class Stops:
                 words = f"{stopping.robot} answered by datagram; on the bus it is not heard"
                 print(printable(words), file=sys.stderr)
         if any(stopping.state != "done" for stopping in unheard):
-            print(printable(_who_is_here(node)), file=sys.stderr)  # only now: to find out may take time
+            here = who_is_here(
+                presence.robots(node.membership.session)
+            )  # only now: to find out may take time
+            print(printable(here), file=sys.stderr)
         return int(any(stopping.state != "done" for stopping in self._asked.values()))
 
     def heed(self) -> bool:
@@ -132,7 +136,10 @@ def release(node: Node, robot: str, everybodys: bool = False) -> str:
     _listen(node, stopping)
     node.membership.until(lambda: stopping.heed(None, clock.now()), 2 * ACKNOWLEDGED_WITHIN)
     if stopping.state != "done":
-        raise BusError(stopping.words + (f"; {_who_is_here(node)}" if stopping.unheard else ""))
+        raise BusError(
+            stopping.words
+            + (f"; {who_is_here(presence.robots(node.membership.session))}" if stopping.unheard else "")
+        )
     return stopping.words
 
 
@@ -150,12 +157,6 @@ def _tell(stopping: Stopping) -> None:
         print(printable(f"{stopping.words}; {advice}"), flush=True)
     else:
         print(printable(f"zteleop stop: {stopping.words}"), file=sys.stderr, flush=True)
-
-
-def _who_is_here(node: Node) -> str:
-    """Return who could have been meant, where a robot is not heard."""
-    found = presence.robots(node.membership.session)
-    return f"heard here: {', '.join(found)}" if found else "no robot is heard here"
 
 
 def _robots(node: Node, settings: Config, every: bool) -> list[str]:

@@ -1,8 +1,10 @@
 import argparse
 
+from zteleop.bus import presence
 from zteleop.bus.escape import printable
 from zteleop.bus.node import Node
 from zteleop.cli import _options
+from zteleop.cli._company import who_is_here
 from zteleop.errors import BusError
 from zteleop.messages import DriveStatus, WatchdogStatus, Why
 
@@ -33,10 +35,8 @@ def answer(node: Node) -> str:
 
     node.membership.until(complete, HEARD_WITHIN)
     if status is None and dog is None:
-        raise BusError(
-            f"no actuator of {node.robot} is heard within {HEARD_WITHIN:g} s; is it on? "
-            "zteleop list shows who is"
-        )
+        here = who_is_here(presence.robots(node.membership.session))
+        raise BusError(f"no actuator of {node.robot} is heard within {HEARD_WITHIN:g} s; is it on? {here}")
     lines = [
         f"{node.robot} is {status.state}: {status.why}" if status else f"{node.robot}: no actuator heard"
     ]

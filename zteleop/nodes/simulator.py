@@ -1,5 +1,8 @@
 """Reads the simulated chip as a car would, moves, and says where it is."""
 
+from collections.abc import Callable
+from math import degrees
+
 from zteleop.bus import clock
 from zteleop.bus.node import Node
 from zteleop.bus.topics import TOPICS
@@ -8,12 +11,16 @@ from zteleop.drivers.registers import read_pulse_us
 from zteleop.drivers.simulated import open_registers
 from zteleop.messages import Odometry
 from zteleop.sim import make_vehicle
+from zteleop.sim.body import Body
 
 PERIOD = 0.01
+TELL_EVERY = 1.0
+STANDS_BELOW = 0.001
+"""m between two looks"""
 
 
-def run(node: Node, settings: DriveSettings, path: str) -> None:
-    """Move a vehicle by the pulses in a register file until the node is stopped."""
+def run(node: Node, settings: DriveSettings, path: str, show: Callable[[str], None] = print) -> None:
+    """Move a vehicle by the pulses in a register file until the node is stopped, and show how it moves."""
     vehicle = make_vehicle(settings.mixer, settings.servos)
     registers = open_registers(path)
     odoms = node.publisher("odom", Odometry)
@@ -32,4 +39,20 @@ def run(node: Node, settings: DriveSettings, path: str) -> None:
     def tell() -> None:
         odoms.publish(vehicle.odometry(clock.stamp()))
 
+    rolled, moved = 0.0, False
+
+    @node.every(TELL_EVERY)
+    def show_motion() -> None:
+        nonlocal rolled, moved
+        moves = vehicle.distance - rolled >= STANDS_BELOW
+        if moves or moved:
+            show(motion(vehicle))
+        rolled, moved = vehicle.distance, moves
+
     node.spin()
+
+
+def motion(vehicle: Body) -> str:
+    """Return in a line how a vehicle moves, and where it is."""
+    place = f"x {vehicle.x:6.2f} m  y {vehicle.y:6.2f} m  heading {degrees(vehicle.heading):4.0f} deg"
+    return f"{vehicle.speed:5.2f} m/s  {place}  rolled {vehicle.distance:.1f} m"

@@ -249,9 +249,17 @@ class Watchdog:
         while not self._hand.at_rest and clock.now() < give_up:
             time.sleep(STEP_EVERY)
             self._rest()
+        self._say_last_word()
         self._hand.close()
         if self._recorder:
             self._recorder.end()
+
+    def _say_last_word(self) -> None:
+        robot = self._node.robot
+        if self._hand.at_rest:
+            self._node.log.info(f"ends: {robot} is at rest, its chip reads neutral")
+        elif not self._never_stepped:
+            self._node.log.error(f"ends, and {robot} may move: neutral cannot be written; cut its power")
 
     def _tell(self) -> None:
         self._tell_status()

@@ -34,6 +34,8 @@ LONGEST_PLACE = 70
 """characters of a folder for the private socket, whose whole path may have a hundred"""
 GLANCE, LOOK_EVERY = 0.005, 0.05
 """s between looks at the door: until it is open, and then"""
+STARTED_WITHIN = 3.0
+"""s in which all that a robot is made of has said that it is there"""
 SPEAKS_WITHIN = 1.0
 """s; a watchdog says five times a second what it sees"""
 DOOR, ACTUATOR, BLACKBOX = (
@@ -62,7 +64,7 @@ def run(settings: Config, hand: PulseDriver, joined: Callable[[Node], object]) -
         pin = output_enable(settings.driver, chip)
         if pin:
             stack.callback(pin.close)
-        _privileges(node)
+        _ask_for_privileges(node)
         orders = msgspec.json.encode(msgspec.structs.replace(settings, bus=behind))
         child = Child(ACTUATOR, orders, hand.shared())
         recorder = Recorder(BLACKBOX, orders, node.log.warn) if settings.blackbox else None
@@ -88,15 +90,9 @@ def _join(robot: str, session: Session) -> Iterator[Node]:
     """Join the bus as the only watchdog of that robot."""
     before = presence.holders(session, robot, "watchdog")
     with Node("watchdog", robot, session=session) as node:
-        holders = {*before, *_who_goes_first(presence.holders(session, robot, "watchdog"))}
-        if holders:
-            _pass_over(node, ", ".join(sorted(holders)))
+        if holders := presence.rivals(session, robot, "watchdog", before):
+            _pass_over(node, ", ".join(holders))
         yield node
-
-
-def _who_goes_first(holders: list[str]) -> list[str]:
-    """Of several that start at once, one goes on."""
-    return [holder for holder in holders if holder < presence.process()]
 
 
 def _pass_over(node: Node, holders: str) -> None:
@@ -139,7 +135,8 @@ def _orders(bus: BusSettings, first: bool) -> bytes:
     return msgspec.json.encode({"bus": bus, "settle": first})
 
 
-def _privileges(node: Node) -> None:
-    missing = realtime.ask_for(PROGRAM.priority, PROGRAM.oom_score)
-    if missing:
-        node.log.info(f"runs without {', '.join(missing)}: not permitted; deploy/README.md says how")
+def _ask_for_privileges(node: Node) -> None:
+    """Ask for them, and say what is missing last: it is what matters least to whoever starts a robot."""
+    if missing := realtime.ask_for(PROGRAM.priority, PROGRAM.oom_score):
+        words = f"runs without {', '.join(missing)}: not permitted; deploy/README.md says how"
+        node.membership.loop.alarm(lambda: node.log.info(words)).ring_at(clock.now() + STARTED_WITHIN)

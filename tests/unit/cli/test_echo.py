@@ -41,21 +41,43 @@ def test_a_delete_is_no_message(capsys: pytest.CaptureFixture[str]) -> None:
     assert capsys.readouterr() == ("", "")
 
 
-def test_it_gives_up_after_so_long_a_silence(clock: Clock, monkeypatch: pytest.MonkeyPatch) -> None:
-    start = clock.time
+@pytest.fixture
+def watch(clock: Clock, monkeypatch: pytest.MonkeyPatch) -> Clock:
     monkeypatch.setattr("time.monotonic", clock.now)
     monkeypatch.setattr("time.sleep", clock.pass_by)
+    return clock
+
+
+def why_silent() -> str:
+    return "abe/odom: nobody publishes it yet"
+
+
+def test_it_gives_up_after_so_long_a_silence(watch: Clock) -> None:
+    start = watch.time
     ring = Ring(sample(String("a")), sample(String("b")))
     heard = []
-    with pytest.raises(BusError, match="nothing was said on robot/abe/odom for 2 s; zteleop list shows"):
-        heard.extend(iter(echo._samples(ring, 2.0, "robot/abe/odom")))
+    with pytest.raises(BusError, match="for 2 s nothing was said on abe/odom: nobody publishes it yet"):
+        heard.extend(iter(echo._samples(ring, 2.0, why_silent)))
     assert not ring.samples
-    assert clock.time == pytest.approx(start + 2.0, abs=0.01)
+    assert watch.time == pytest.approx(start + 2.0, abs=0.01)
 
 
-def test_without_a_timeout_it_hears_until_the_end() -> None:
+@pytest.mark.parametrize(("timeout", "told"), [(3.0, 1), (0.5, 0), (float("nan"), 0)])
+def test_who_waits_for_a_first_message_is_told_once_for_whom(
+    watch: Clock, timeout: float, told: int, capsys: pytest.CaptureFixture[str]
+) -> None:
+    start = watch.time
+    with pytest.raises(BusError):
+        list(echo._samples(Ring(), timeout, why_silent))
+    waits = "zteleop echo: waits for abe/odom: nobody publishes it yet\n"
+    assert capsys.readouterr() == ("", waits * told)
+    assert watch.time == pytest.approx(start + (timeout if timeout > 0 else 0.0), abs=0.01)
+
+
+def test_without_a_timeout_it_hears_until_the_end(capsys: pytest.CaptureFixture[str]) -> None:
     samples = [sample(String("a")), sample(String("b"))]
-    assert list(echo._samples(Ring(*samples), None, "key")) == samples
+    assert list(echo._samples(Ring(*samples), None, why_silent)) == samples
+    assert capsys.readouterr().err == ""
 
 
 def test_what_is_nested_too_deeply_for_yaml_is_said_and_no_end(capsys: pytest.CaptureFixture[str]) -> None:

@@ -3,13 +3,13 @@
 from pathlib import Path
 
 import pytest
-from preload.contract import CASES, Bench, Case
+from preload.contract import CASES, Bench, Case, hold
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.__name__)
 def test_on_a_simulated_chip(case: Case, tmp_path: Path) -> None:
     bench = Bench(str(tmp_path / "chip"))
     try:
-        case(bench)
+        hold(case, bench)
     finally:
         bench.close()

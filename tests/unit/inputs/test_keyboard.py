@@ -334,7 +334,8 @@ def test_the_terminal_is_entered_and_left(step):
 
 
 CHUNKS = st.one_of(
-    st.sampled_from([UP, DOWN, LEFT, RIGHT, b"w", b" ", b"x", b"u", b"i", b"r", DELETE]), st.binary(max_size=3)
+    st.sampled_from([UP, DOWN, LEFT, RIGHT, b"w", b" ", b"x", b"u", b"i", b"r", DELETE]),
+    st.binary(max_size=3),
 )
 
 

@@ -683,6 +683,7 @@ def test_a_signal_ends_it_after_the_actuator_with_neutral_as_the_last_word(
     assert kennel.hand.log == ["write", "read", "close"]
     assert kennel.hand.pulses == NEUTRAL
     assert (kennel.enabled[-1], told[-1]) == (False, "STOPPING=1")
+    assert kennel.node.infos[-1] == "ends: archangel is at rest, its chip reads neutral"
 
 
 def test_it_tries_for_two_seconds_to_leave_neutral_behind(kennel: Kennel) -> None:
@@ -696,6 +697,7 @@ def test_it_tries_for_two_seconds_to_leave_neutral_behind(kennel: Kennel) -> Non
     assert kennel.clock.time - began == pytest.approx(0.5 + RESTS_WITHIN, abs=2 * STEP_EVERY)
     assert kennel.hand.log[-1] == "close"
     assert kennel.enabled[-1] is False
+    assert kennel.node.errors[-1] == "ends, and archangel may move: neutral cannot be written; cut its power"
 
 
 def test_whatever_goes_wrong_neutral_is_left_behind(kennel: Kennel) -> None:

@@ -1,0 +1,75 @@
+import pytest
+
+from zteleop.bus.names import resolve
+from zteleop.bus.presence import Endpoint, Kind, process
+from zteleop.cli._company import by_topic, members, who_hears, who_is_here, why_silent
+
+
+def end(
+    topic: str, kind: Kind = "pub", node: str = "nose", where: str = "pi-7", robot: str = "abe"
+) -> Endpoint:
+    return Endpoint(robot, kind, node, where, "nav_msgs/msg/Odometry", topic)
+
+
+ABE = [end("odom"), end("log"), end("cmd_vel/keyboard", "sub", "actuator"), end("scan", "sub", "map")]
+ZOE = [end("odom", robot="zoe")]
+
+
+def test_topics_stand_in_order_each_once() -> None:
+    ends = [end("odom", robot="zoe"), end("odom"), end("odom", "sub"), end("chatter")]
+    found = by_topic(ends)
+    assert list(found) == ["/abe/chatter", "/abe/odom", "/zoe/odom"]
+    assert found["/abe/odom"] == ends[1:3]
+
+
+def test_a_commands_sources_and_names_are_one_topic() -> None:
+    ends = [end("cmd_vel/web"), end("cmd_vel/keyboard"), end("cmd_vel/**", "sub")]
+    assert by_topic(ends) == {"/abe/cmd_vel": ends}
+    assert members(resolve("abe/cmd_vel_stamped", None), "pub", ends) == ends[:2]
+    assert members(resolve("abe/cmd_vel", None), "sub", ends) == ends[2:]
+
+
+@pytest.mark.parametrize(
+    ("topic", "words"),
+    [
+        ("abe/odom", "nose on pi-7 publishes it, and said nothing so far"),
+        ("abe/odmo", "nobody publishes it; did you mean odom?"),
+        ("abe/cmdvel", "nobody publishes it; did you mean cmd_vel?"),
+        ("abe/cmd_vel", "nobody publishes it yet"),
+        ("abee/odom", "nobody publishes it; robot abee is not heard; heard here: abe, zoe"),
+    ],
+)
+def test_a_silence_says_who_says_nothing_or_what_was_meant(topic: str, words: str) -> None:
+    mine = [end("odmo", "sub", "echo", process()), end("odom", "sub", "echo", process(), "abee")]
+    assert why_silent(resolve(topic, None), [*mine, *ABE, *ZOE]) == words
+
+
+def test_two_who_say_nothing_are_two() -> None:
+    two = [end("odom"), end("odom", where="pi-8"), end("odom", where="pi-8")]
+    assert why_silent(resolve("abe/odom", None), two) == (
+        "nose on pi-7 and nose on pi-8 publish it, and said nothing so far"
+    )
+
+
+def test_where_nobody_is_there_no_robot_is_heard() -> None:
+    assert why_silent(resolve("abe/odom", None), []) == (
+        "nobody publishes it; robot abe is not heard; no robot is heard here"
+    )
+
+
+@pytest.mark.parametrize(
+    ("topic", "words"),
+    [
+        ("abe/scan", "map on pi-7 hears it"),
+        ("abe/scna", "nobody hears it; did you mean scan?"),
+        ("abe/cmdvel", "nobody hears it; did you mean cmd_vel?"),
+        ("abe/odom", "nobody hears it yet"),
+        ("zeo/scan", "nobody hears it; robot zeo is not heard; heard here: abe, zoe"),
+    ],
+)
+def test_who_speaks_is_told_who_hears_or_what_was_meant(topic: str, words: str) -> None:
+    assert who_hears(resolve(topic, None), [*ABE, *ZOE]) == words
+
+
+def test_robots_that_are_here_are_named_once_in_order() -> None:
+    assert who_is_here(["zoe", "abe", "zoe"]) == "heard here: abe, zoe"

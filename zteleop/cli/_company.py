@@ -1,0 +1,68 @@
+"""Who speaks and who hears on the bus, in words for whoever waits for them."""
+
+from collections.abc import Iterable
+
+from zteleop.bus.names import Name
+from zteleop.bus.presence import Endpoint, Kind, process
+from zteleop.bus.topics import TOPICS, topic_of
+from zteleop.errors import nearest
+
+
+def by_topic(endpoints: Iterable[Endpoint]) -> dict[str, list[Endpoint]]:
+    """Group by topic; a command topic's sources are one."""
+    found: dict[str, list[Endpoint]] = {}
+    for endpoint in endpoints:
+        found.setdefault(f"/{endpoint.robot}/{topic_of(endpoint.topic).name}", []).append(endpoint)
+    return dict(sorted(found.items()))
+
+
+def members(name: Name, kind: Kind, endpoints: Iterable[Endpoint]) -> list[Endpoint]:
+    """Return who publishes a topic, or who hears it."""
+    topic = topic_of(name.path).name
+    return [
+        one
+        for one in endpoints
+        if (one.robot, one.kind, topic_of(one.topic).name) == (name.robot, kind, topic)
+    ]
+
+
+def why_silent(name: Name, endpoints: Iterable[Endpoint]) -> str:
+    """Return who says nothing on a topic, or which topic may have been meant."""
+    endpoints = list(endpoints)
+    if speakers := members(name, "pub", endpoints):
+        return f"{_people(speakers)} {_verb('publish', speakers)} it, and said nothing so far"
+    return f"nobody publishes it{_others(name, 'pub', endpoints)}"
+
+
+def who_hears(name: Name, endpoints: Iterable[Endpoint]) -> str:
+    """Return who hears a topic, or which topic may have been meant."""
+    endpoints = list(endpoints)
+    if hearers := members(name, "sub", endpoints):
+        return f"{_people(hearers)} {_verb('hear', hearers)} it"
+    return f"nobody hears it{_others(name, 'sub', endpoints)}"
+
+
+def who_is_here(robots: Iterable[str]) -> str:
+    """Return which robots could have been meant, where one is not heard."""
+    found = sorted(set(robots))
+    return f"heard here: {', '.join(found)}" if found else "no robot is heard here"
+
+
+def _others(name: Name, kind: Kind, endpoints: list[Endpoint]) -> str:
+    others = [one for one in endpoints if one.process != process()]
+    robots = {one.robot for one in others if one.kind == "pub"}
+    if name.robot not in robots:
+        return f"; robot {name.robot} is not heard; {who_is_here(robots)}"
+    topics = {topic_of(one.topic).name for one in others if (one.robot, one.kind) == (name.robot, kind)}
+    if topic_of(name.path).types or not topics:
+        return " yet"
+    return f"; {nearest(name.path, topics | TOPICS.keys())}"
+
+
+def _people(endpoints: Iterable[Endpoint]) -> str:
+    return " and ".join(sorted({f"{one.node} on {one.process}" for one in endpoints}))
+
+
+def _verb(plain: str, endpoints: list[Endpoint]) -> str:
+    several = len({(one.node, one.process) for one in endpoints}) > 1
+    return plain if several else plain + ("es" if plain.endswith("sh") else "s")
