@@ -3,6 +3,7 @@
 import contextlib
 import os
 from collections.abc import Iterator
+from itertools import islice
 from pathlib import Path
 from typing import Any, Literal
 
@@ -13,13 +14,15 @@ from zteleop.bus.names import chunk, robot_name
 from zteleop.bus.settings import BusSettings
 from zteleop.control.settings import DriveSettings
 from zteleop.control.stick import Speeds
-from zteleop.drivers import settings_of
+from zteleop.drivers import DRIVERS, settings_kind, settings_of
 from zteleop.drivers.simulated import default_path
 from zteleop.errors import ConfigError
 from zteleop.inputs.levers import Steps
 
 LONGEST = 2**20
 """bytes of a file: /dev/zero has no end, and half of a file may be another calibration"""
+MOST = 20
+"""mistakes of a file that are told at once"""
 
 
 class Config(Struct, frozen=True, forbid_unknown_fields=True):
@@ -65,24 +68,25 @@ def load(path: Path | None = None) -> Config:
         return Config()
     try:
         with path.open("rb") as file:
-            return parse(file.read(LONGEST + 1))
+            text = file.read(LONGEST + 1)
     except OSError as error:
         raise ConfigError(f"cannot read {path}: {error.strerror}") from None
-    except ConfigError as error:
-        raise ConfigError(f"{path}: {error}") from None
+    return parse(text, str(path))
 
 
-def parse(text: bytes) -> Config:
-    """Return the settings a TOML text makes; raises ConfigError."""
+def parse(text: bytes, name: str = "settings") -> Config:
+    """Return the settings a TOML text makes; raises ConfigError, a line for each mistake."""
     if len(text) > LONGEST:
-        raise ConfigError(f"expected at most {LONGEST} bytes of settings, found more")
+        raise ConfigError(f"{name}: expected at most {LONGEST} bytes of settings, found more")
     try:
         values = msgspec.toml.decode(text)
         return msgspec.convert(values, Config)
     except msgspec.ValidationError as error:
-        raise ConfigError(_with_names(str(error), values)) from None
+        raise ConfigError(_mistakes(text.decode(), values, name) or f"{name}: {error}") from None
     except (msgspec.DecodeError, ValueError, RecursionError) as error:
-        raise ConfigError(f"not TOML: {error}") from None
+        words, _, where = str(error).partition(" (at line ")
+        at = f":{where.rstrip(')').replace(', column ', ':')}" if where[:1].isdecimal() else ""
+        raise ConfigError(f"{name}{at}: not TOML: {words}") from None
 
 
 def places() -> Iterator[Path]:
@@ -143,24 +147,15 @@ def _xdg(variable: str, default: str) -> Path:
         raise ConfigError(f"this user has no home folder; set {variable}") from None
 
 
-def _with_names(error: str, values: Any) -> str:
-    """Name the table that msgspec writes as [...]: it is the one that fails alone."""
-    problem, _, path = error.rpartition(" - at `$.")
-    before, marker, after = path.partition("[...]")
-    parts = before.split(".")
-    for name, entry in _tables(values, parts).items() if marker else ():
-        lone: dict[str, Any] = {name: entry}
-        for part in reversed(parts):
-            lone = {part: lone}
-        try:
-            msgspec.convert(lone, Config)
-        except msgspec.ValidationError as found:
-            if str(found) == error:
-                return f"{problem} - at `$.{before}.{name}{after}"
-    return error
+def _mistakes(text: str, values: Any, name: str) -> str:
+    """Return in a line each where a file is wrong and what may stand there."""
+    from zteleop.text.mistakes import mistakes  # only where there are some
+    from zteleop.text.toml_places import place
 
-
-def _tables(values: Any, parts: list[str]) -> dict[str, Any]:
-    for part in parts:
-        values = values.get(part) if isinstance(values, dict) else None
-    return values if isinstance(values, dict) else {}
+    kinds: dict[tuple[str, ...], Any] = {("drivers", driver): settings_kind(driver) for driver in DRIVERS}
+    found = list(islice(mistakes(values, Config, kinds), MOST))
+    lines = []
+    for path, words in sorted(found, key=lambda mistake: place(text, mistake.path) or ()):
+        where = ":".join([name, *map(str, place(text, path) or ())])
+        lines.append(": ".join(filter(None, (where, ".".join(path), words))))
+    return "\n".join(lines)

@@ -243,7 +243,7 @@ def test_a_stop_goes_out_whatever_the_config_says(rig: Rig, driving: None, typo:
     file.write_text(f"{typo}\n{right}")
     done = rig.result("stop", *rig.bus_options())
     assert (done.returncode, done.stdout.partition(" (")[0]) == (0, "bench is stopped"), done.stderr
-    assert done.stderr.startswith("zteleop: warning: config.toml: ")
+    assert done.stderr.startswith("zteleop: warning: config.toml:")
     until(lambda: rig.ticks == NEUTRAL, "neutral")
     for verb in ("why", "neutral"):
-        assert "warning: config.toml: " in rig.result(verb, "--robot", "bench").stderr
+        assert "warning: config.toml:" in rig.result(verb, "--robot", "bench").stderr

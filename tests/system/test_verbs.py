@@ -365,22 +365,40 @@ def test_check_says_what_a_good_file_makes(rig: Rig, tmp_path: Path) -> None:
     assert (result.returncode, result.stderr) == (0, "")
     assert result.stdout.startswith(f"{config}: good\nrobot    archangel\n")
     assert "at most 1.5 m/s" in result.stdout
+    assert result.stdout.splitlines()[-2:] == [
+        "set      drive.limits.speed = 1.5, built in nothing",
+        "set      robot = archangel, built in nothing",
+    ]
 
 
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("robot = 'Arch Angel'", ["a robot's name is", "'Arch Angel'"]),
-        ("[drive.limits]\nspeeed = 1", ["speeed", "$.drive.limits"]),
-        ("driver = 'pca9865'", ["pca9865", "pca9685"]),
-        ("[drive", ["not TOML"]),
-        ("[drive.servos.steering]\nchannel = 99", ["$.drive.servos.steering.channel"]),
+        ("robot = 'Arch Angel'", [":1:1: robot: a robot's name is", "'Arch Angel'"]),
+        ("[drive.limits]\nspeeed = 1", [":2:1: drive.limits.speeed: no such setting; did you mean speed?"]),
+        ("driver = 'pca9865'", [":1:1: driver: no driver named 'pca9865'; did you mean pca9685?"]),
+        ("[drive\n", [":1:7: not TOML"]),
+        ("[drive.servos.steering]\nchannel = 99", [":2:1: drive.servos.steering.channel: ", "found 99"]),
     ],
 )
 def test_check_says_where_a_bad_file_is_wrong(rig: Rig, tmp_path: Path, text: str, words: list[str]) -> None:
     config = tmp_path / "config.toml"
     config.write_text(text)
     is_one_sentence(rig.result("check", str(config)), "check", str(config), *words)
+
+
+def test_check_says_all_that_is_wrong_and_a_stop_goes_on(rig: Rig, tmp_path: Path) -> None:
+    config = tmp_path / "config.toml"
+    config.write_text("[drive.limits]\nspeeed = 1\nturn = 'fast'\n[speeds]\nforward = -1\n")
+    checked = rig.result("check", str(config))
+    assert (checked.returncode, checked.stdout) == (1, "")
+    assert [line.split(": ")[1] for line in checked.stderr.splitlines()[1:]] == [
+        "drive.limits.turn",
+        "speeds.forward",
+    ]
+    stopped = ask(rig, "stop", "--release", "--config", str(config))
+    assert "drive.limits.speeed: no such setting; did you mean speed? (and 2 more" in stopped.stderr
+    assert stopped.stderr.count("\n") == 1
 
 
 def test_check_says_when_there_is_no_file(rig: Rig) -> None:

@@ -21,7 +21,9 @@ def salvage(path: Path | None = None) -> tuple[Config, str]:
     try:
         return config.load(path), ""
     except ConfigError as error:
-        return _convert(_sound(_read(_text(path)))) or Config(), str(error)
+        first, *more = str(error).splitlines()
+        wrong = f"{first} (and {len(more)} more, says zteleop check)" if more else first
+        return _convert(_sound(_read(_text(path)))) or Config(), wrong
 
 
 def _text(path: Path | None) -> bytes:

@@ -1,10 +1,14 @@
 import argparse
+from collections.abc import Iterator
 from pathlib import Path
+
+import msgspec
 
 from zteleop import config
 from zteleop.config import Config
 from zteleop.control.report import to_vehicle
-from zteleop.drivers import tick_us
+from zteleop.drivers import DRIVERS, settings_of, tick_us
+from zteleop.text.paths import leaves
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -34,4 +38,23 @@ def _summary(settings: Config) -> str:
         )
     sources = sorted(settings.drive.known_sources.items(), key=lambda item: -item[1].priority)
     lines.append("sources  " + ", ".join(f"{name} {source.priority}" for name, source in sources))
+    lines += [f"set      {name} = {ours}, built in {theirs}" for name, ours, theirs in _changes(settings)]
     return "\n".join(lines)
+
+
+def _changes(settings: Config) -> Iterator[tuple[str, object, object]]:
+    """Yield each setting that is not what is built in: its name, what it is, what it would be."""
+    ours, theirs = (
+        {name: value for name, value in leaves(_all(each)) if value not in (None, {}, [])}
+        for each in (settings, Config())
+    )
+    for name in sorted(ours.keys() | theirs.keys()):
+        if ours.get(name) != theirs.get(name):
+            yield name, ours.get(name, "nothing"), theirs.get(name, "nothing")
+
+
+def _all(settings: Config) -> dict[str, object]:
+    """Return every setting, also those of drivers that are not said."""
+    drivers = {name: settings_of(name, settings.drivers.get(name, {})) for name in DRIVERS}
+    values: dict[str, object] = msgspec.to_builtins(settings)
+    return values | {"drivers": msgspec.to_builtins(drivers)}

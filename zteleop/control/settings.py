@@ -43,7 +43,10 @@ class DriveSettings(Struct, frozen=True, forbid_unknown_fields=True):
 
     def __post_init__(self) -> None:
         if set(self.servos) != self.mixer.wheels:
-            raise ValueError(f"servos must be {_names(self.mixer.wheels)}, found {_names(self.servos)}")
+            raise ValueError(
+                f"expected servos {_names(self.mixer.wheels)}, found {_names(self.servos)}; "
+                "what is written here replaces those built in"
+            )
         channels = [servo.channel for servo in self.servos.values()]
         if len(set(channels)) < len(channels):
             raise ValueError(f"each servo needs a channel of its own, found {channels}")

@@ -8,7 +8,7 @@ import msgspec
 
 from zteleop.drivers import registers
 from zteleop.drivers.output_enable import OutputEnable, open_output_enable
-from zteleop.errors import ConfigError
+from zteleop.errors import ConfigError, nearest
 
 
 class PulseDriver(Protocol):
@@ -63,12 +63,19 @@ def open_driver(
 def settings_of(name: str, settings: Mapping[str, object] | msgspec.Struct) -> Any:
     """Return a driver's settings, checked; ConfigError for an unknown driver, name or value."""
     if name not in DRIVERS:
-        raise ConfigError(f"no driver named {name!r}; known: {', '.join(DRIVERS)}")
+        raise ConfigError(f"no driver named {name!r}; {nearest(name, DRIVERS)}")
     try:
-        return msgspec.convert(settings, import_module(DRIVERS[name]).SETTINGS)
+        return msgspec.convert(settings, settings_kind(name))
     except msgspec.ValidationError as error:
-        problem, _, path = str(error).partition(" - at `$")
-        raise ConfigError(f"drivers.{name}{path.rstrip('`')}: {problem}") from error
+        from zteleop.text.mistakes import mistakes  # only where there are some
+
+        found = mistakes(settings, settings_kind(name), path=("drivers", name))
+        raise ConfigError("; ".join(f"{'.'.join(path)}: {words}" for path, words in found)) from error
+
+
+def settings_kind(name: str) -> Any:
+    """Return what the settings of a driver that is known are."""
+    return import_module(DRIVERS[name]).SETTINGS
 
 
 def tick_us(name: str, settings: Mapping[str, object]) -> float:

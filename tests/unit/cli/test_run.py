@@ -109,7 +109,10 @@ def test_a_verb_that_is_there_runs(capsys: pytest.CaptureFixture[str], tmp_path:
     with open(path, "w") as file:
         file.write("speed = 1\n")
     assert _run.run_verb("check", "check a config file", [path]) == 1
-    assert capsys.readouterr().err == f"zteleop check: {path}: Object contains unknown field `speed`\n"
+    assert (
+        capsys.readouterr().err
+        == f"zteleop check: {path}:1:1: speed: no such setting; did you mean speeds?\n"
+    )
 
 
 def test_what_strangers_said_is_escaped_in_an_error(verb: Verb, capsys: pytest.CaptureFixture[str]) -> None:

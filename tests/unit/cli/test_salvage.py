@@ -36,7 +36,7 @@ def test_what_is_wrong_is_said_and_costs_nothing_else(file: Path, text: str) -> 
     file.write_text(text)
     settings, wrong = salvage(file)
     assert (settings.robot, settings.bus.connect) == ("archangel", ["tcp/pi:7447"])
-    assert wrong.startswith(f"{file}: ")
+    assert wrong.startswith(f"{file}:")
 
 
 @pytest.mark.parametrize("content", [b"\x00\xff\xfe", b"[" * 10_000, b"a" * 2**20, b"\n[bus]\nconnect = 7\n"])

@@ -126,7 +126,10 @@ def test_a_tank_takes_twists_and_refuses_ticks() -> None:
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"servos": {"throttle": Servo(channel=0)}}, "servos must be steering, throttle, found throttle"),
+        (
+            {"servos": {"throttle": Servo(channel=0)}},
+            "expected servos steering, throttle, found throttle; what is written",
+        ),
         (
             {"servos": {"throttle": Servo(channel=3), "steering": Servo(channel=3)}},
             r"each servo needs a channel of its own, found \[3, 3\]",
