@@ -146,7 +146,7 @@ def test_a_robot_whose_watchdog_stood_still_for_long_waits_until_the_operator_le
     with operator(node):
         driven(rig)
         actuator.signal(signal.SIGSTOP)
-        for _ in every(0.02, 110):
+        for _ in every(0.02, 150):  # its actuator went on for half a second of that, and another starts
             pass
         deadline = Deadline(rig)
         actuator.signal(signal.SIGCONT)

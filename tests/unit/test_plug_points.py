@@ -105,7 +105,7 @@ def test_a_chip(room: Room, monkeypatch: pytest.MonkeyPatch) -> None:
     chip: PulseDriver = open_driver("pins", {"pins": 3})
     chip.write({2: 1500.0})
     assert chip.read([1, 2]) == {1: None, 2: 1500.0}
-    with pytest.raises(drivers.ConfigError, match=r"drivers.pins.pins: Expected `int`, got `str`"):
+    with pytest.raises(drivers.ConfigError, match=r"drivers.pins.pins: expected a whole number, found"):
         open_driver("pins", {"pins": "three"})
 
 

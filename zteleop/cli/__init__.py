@@ -21,6 +21,15 @@ VERBS = {
     "schema": "write the JSON Schema of every message and of config.toml",
 }
 
+GROUPS = {"topic": ("list", "echo", "pub")}
+"""verbs that may be typed behind a word, as those who know ros2 do"""
+ELSEWHERE = {
+    "node": "zteleop list -v shows which nodes publish and hear",
+    "run": "a program runs by its own name; zteleop keyboard drives",
+    "topic": "zteleop list, echo and pub are about topics",
+}
+"""what people type who come from elsewhere, and what there is instead"""
+
 USAGE = """usage: zteleop VERB ...
 
 Drive a small robot from any device, safely.
@@ -35,7 +44,7 @@ def main(argv: list[str] | None = None) -> int:
     """Run one verb; return 0 done, 1 error, 2 usage, 130 Ctrl-C, 143 SIGTERM."""
     _open_standard_files()
     try:
-        code = _dispatch(sys.argv[1:] if argv is None else argv)
+        code = _dispatch([*(sys.argv[1:] if argv is None else argv)])
         sys.stdout.flush()
         return code
     except KeyboardInterrupt:
@@ -67,6 +76,8 @@ def _dispatch(arguments: list[str]) -> int:
 
         print(f"zteleop {version('zteleop')}")
         return 0
+    if arguments[1:] and arguments[1] in GROUPS.get(arguments[0], ()):
+        del arguments[0]
     if arguments[0] not in VERBS:
         print(f"zteleop: {_unknown(arguments[0])}", file=sys.stderr)
         return 2
@@ -78,5 +89,7 @@ def _dispatch(arguments: list[str]) -> int:
 def _unknown(verb: str) -> str:
     from difflib import get_close_matches
 
+    if verb in ELSEWHERE:
+        return f"no verb {verb!r}; {ELSEWHERE[verb]}"
     near = get_close_matches(verb, VERBS, 1)
     return f"no verb {verb!r}; " + (f"did you mean {near[0]}?" if near else f"known: {', '.join(VERBS)}")

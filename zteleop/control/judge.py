@@ -82,6 +82,10 @@ class Judge:
         """Learn that somebody released a stop: no claim from before may go on."""
         self.released = now
 
+    def last_counted(self, sender: int) -> float:
+        """Return when a command of a sender last counted here."""
+        return self._admission.gate.last_counted(sender)
+
     def receive(self, source: str, command: Twist | Pwm, proof: Proof | None, now: float) -> Refusal | None:
         """Judge a command that the watchdog heard itself."""
         refusal = self._admission.receive(source, command, proof, now).refusal

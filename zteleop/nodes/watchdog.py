@@ -211,10 +211,17 @@ class Watchdog:
         self._tell_status()
 
     def _remember(self) -> Standing | None:
-        """Return where the actuator stood, and what it may not have heard: the release of a stop."""
+        """Return where the actuator stood, and what it may not have heard: the release of a stop.
+
+        Who drove goes on by what both have counted: what this process slept through, the judge has not,
+        and would stop whoever goes on by it.
+        """
         last = self._child.newest
-        standing = last.standing if last else self._standing
-        return standing and standing._replace(floor=max(standing.floor, self._judge.released))
+        if not (standing := last.standing if last else self._standing):
+            return None
+        counted = min(standing.counted, self._judge.last_counted(standing.sender))
+        floor = max(standing.floor, self._judge.released)
+        return standing._replace(floor=floor, counted=max(counted, 0.0))
 
     @property
     def _never_stepped(self) -> bool:

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import zteleop.cli
-from zteleop.cli import VERBS, main
+from zteleop.cli import GROUPS, VERBS, main
 
 FILES = {path.stem for path in Path(zteleop.cli.__file__).parent.glob("*.py")}
 
@@ -58,6 +58,8 @@ def test_version_is_the_packages(flag: str, capsys: pytest.CaptureFixture[str]) 
         ("ech", "zteleop: no verb 'ech'; did you mean echo?"),
         ("fly", f"zteleop: no verb 'fly'; known: {', '.join(VERBS)}"),
         ("--robot", "zteleop: no verb '--robot'; known: "),
+        ("topic", "zteleop: no verb 'topic'; zteleop list, echo and pub are about topics"),
+        ("node", "zteleop: no verb 'node'; zteleop list -v shows which nodes publish and hear"),
         ("\x1b[2J", "zteleop: no verb '\\x1b[2J'; known: "),
         ("", "zteleop: no verb ''; known: "),
     ],
@@ -70,6 +72,15 @@ def test_an_unknown_verb_is_a_usage_error_with_the_nearest(
     assert out == ""
     assert err.startswith(words)
     assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize("verb", GROUPS["topic"])
+def test_a_verb_may_stand_behind_its_group(verb: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ending:
+        main(["topic", verb, "--help"])
+    assert ending.value.code == 0
+    assert capsys.readouterr().out.startswith(f"usage: zteleop {verb} ")
+    assert main(["topic", "delay"]) == 2
 
 
 @pytest.mark.parametrize("verb", VERBS)

@@ -736,17 +736,22 @@ def test_a_chip_that_was_never_there_is_not_waited_for_long(kennel: Kennel) -> N
 WENT = Standing(EPOCH, 999.0, 999.5, 999.6, 2, 7, 1000.0, 1000.5)
 
 
+def stood(kennel: Kennel, standing: Standing) -> None:
+    """Let an actuator report where it stands; whoever drives is heard here as well."""
+    kennel.child.standing = standing
+    kennel.hear("pwm/keyboard", Pwm(391, 413))
+    kennel.live(0.1)
+
+
 def test_an_actuator_that_was_only_late_is_followed_by_one_in_its_place(awake: Kennel) -> None:
-    awake.child.standing = WENT
-    awake.live(0.1)
+    stood(awake, WENT)
     awake.child.frozen = True
     awake.until(lambda: awake.restarted)
     assert awake.child.followed == [None, WENT]
 
 
 def test_one_that_crashed_or_would_not_stop_is_followed_by_a_start(awake: Kennel) -> None:
-    awake.child.standing = WENT
-    awake.live(0.1)
+    stood(awake, WENT)
     awake.child.code, awake.child.dead = 1, True
     awake.until(lambda: awake.restarted)
     awake.live(0.1)
@@ -756,24 +761,39 @@ def test_one_that_crashed_or_would_not_stop_is_followed_by_a_start(awake: Kennel
 
 
 def test_one_that_ended_because_the_watchdog_was_late_is_followed_by_one_in_its_place(awake: Kennel) -> None:
-    awake.child.standing = WENT
-    awake.live(0.1)
+    stood(awake, WENT)
     awake.child.code, awake.child.dead = UNWATCHED, True
     awake.until(lambda: awake.restarted)
     assert awake.child.followed == [None, WENT]
 
 
 def test_one_that_is_late_before_its_first_step_hands_on_what_it_was_told(awake: Kennel) -> None:
-    awake.child.standing = WENT
-    awake.live(0.1)
+    stood(awake, WENT)
     awake.child.frozen = True
     awake.until(lambda: awake.child.starts == 3)
     assert awake.child.followed == [None, WENT, WENT]
 
 
-def test_a_release_that_the_late_one_did_not_hear_ends_what_it_stood_for(awake: Kennel) -> None:
+def test_what_the_watchdog_slept_through_is_no_time_that_counted(awake: Kennel) -> None:
+    """The actuator went on for half a second after that; its judge would stop whoever goes on by it."""
+    heard = awake.clock.time
+    stood(awake, WENT._replace(counted=heard + 0.5))
+    awake.clock.pass_by(2.2)
+    awake.child.code, awake.child.dead = UNWATCHED, True
+    awake.until(lambda: awake.restarted)
+    assert awake.child.followed[-1] == WENT._replace(counted=pytest.approx(heard, abs=2 * STEP_EVERY))
+
+
+def test_who_was_never_heard_here_begins_anew(awake: Kennel) -> None:
     awake.child.standing = WENT
     awake.live(0.1)
+    awake.child.frozen = True
+    awake.until(lambda: awake.restarted)
+    assert awake.child.followed == [None, WENT._replace(counted=0.0)]
+
+
+def test_a_release_that_the_late_one_did_not_hear_ends_what_it_stood_for(awake: Kennel) -> None:
+    stood(awake, WENT)
     awake.child.frozen = True
     awake.hear("stop", Stop(engaged=False, id=5, by="ann", why=""))
     before = awake.clock.time
