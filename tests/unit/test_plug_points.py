@@ -44,6 +44,7 @@ def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Room:
 
 
 VERB = """
+EXAMPLES = ("zteleop greet ann",)
 def add_arguments(parser): parser.add_argument("who")
 def run(arguments): print("hello", arguments.who)
 """

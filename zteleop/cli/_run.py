@@ -13,7 +13,12 @@ def run_verb(verb: str, text: str, arguments: list[str]) -> int:
     if isinstance(sys.stdout, io.TextIOWrapper):  # what a terminal cannot show must not end what shows it
         sys.stdout.reconfigure(errors="backslashreplace")
     module = import_module(f"zteleop.cli.{verb}")
-    parser = argparse.ArgumentParser(prog=f"zteleop {verb}", description=f"{text[0].upper()}{text[1:]}.")
+    parser = argparse.ArgumentParser(
+        prog=f"zteleop {verb}",
+        description=f"{text[0].upper()}{text[1:]}.",
+        epilog="\n  ".join(["examples:", *module.EXAMPLES]),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
     parser.add_argument("--debug", action="store_true", help="show the traceback of an error")
     module.add_arguments(parser)
     options = parser.parse_args(arguments)

@@ -10,6 +10,11 @@ from zteleop.drivers import DRIVERS, open_driver
 from zteleop.errors import ConfigError
 from zteleop.processes import watchdog
 
+EXAMPLES = (
+    "zteleop actuator",
+    "zteleop actuator --robot archangel --journal all",
+)
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add(parser)

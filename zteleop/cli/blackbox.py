@@ -15,6 +15,11 @@ from zteleop.recording import blackbox_file
 from zteleop.recording.blackbox_file import Header, Recorded, Recording
 from zteleop.recording.timeline import Event, timeline
 
+EXAMPLES = (
+    "zteleop blackbox",
+    "zteleop blackbox archangel --list",
+)
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("what", metavar="ROBOT|FILE", nargs="?", help="a robot of this machine, or any file")

@@ -15,6 +15,10 @@ from zteleop.config import Config
 from zteleop.errors import ConfigError, ZteleopError
 from zteleop.machine.stop_file import StopFile
 
+EXAMPLES = (
+    "zteleop chaos --list",
+    'zteleop chaos --only "at three places" --times 1',
+)
 CONSENT = "wheels up"
 LATER = 0.007
 """s by which each trial strikes later than the one before: at another moment of every period"""

@@ -10,6 +10,11 @@ from zteleop.control.report import to_vehicle
 from zteleop.drivers import DRIVERS, settings_of, tick_us
 from zteleop.text.paths import leaves
 
+EXAMPLES = (
+    "zteleop check",
+    "zteleop check config.toml",
+)
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", nargs="?", type=Path, help="default: what every verb would read")

@@ -19,6 +19,10 @@ from zteleop.messages import Odometry
 from zteleop.nodes.teleop import Teleop
 from zteleop.screen.view import View
 
+EXAMPLES = (
+    "zteleop demo",
+    "zteleop demo --drive hold",
+)
 START = 10.0
 
 

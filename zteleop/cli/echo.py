@@ -15,6 +15,10 @@ from zteleop.bus.topics import topic_of
 from zteleop.cli import _company, _options
 from zteleop.errors import BusError, MessageError
 
+EXAMPLES = (
+    "zteleop echo odom",
+    "zteleop echo archangel/drive_status --once",
+)
 DEPTH = 100
 TELL_AFTER = 1.0
 """s of silence at the start until it says for whom it waits"""

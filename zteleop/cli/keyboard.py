@@ -17,6 +17,10 @@ from zteleop.screen.dashboard import Dashboard
 from zteleop.screen.render import render
 from zteleop.screen.view import View
 
+EXAMPLES = (
+    "zteleop keyboard",
+    "zteleop keyboard --robot archangel --drive hold",
+)
 TRAIL = 400
 TRAIL_STEP = 0.05
 HEARD_WITHIN = 0.6

@@ -6,6 +6,11 @@ from zteleop.bus.session import open_session
 from zteleop.bus.topics import topic_of
 from zteleop.cli import _company, _options
 
+EXAMPLES = (
+    "zteleop list",
+    "zteleop list --show-types --verbose",
+)
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add(parser)

@@ -8,6 +8,11 @@ from zteleop.control.calibration import Calibration
 from zteleop.drivers import DRIVERS, open_driver
 from zteleop.errors import DeviceError
 
+EXAMPLES = (
+    "zteleop neutral",
+    "zteleop neutral --robot archangel",
+)
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add_config(parser)

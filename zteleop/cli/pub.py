@@ -18,6 +18,10 @@ from zteleop.interfaces.values import fill
 from zteleop.messages import DriveStatus, Message, message_type
 from zteleop.text import yaml_text
 
+EXAMPLES = (
+    "zteleop pub cmd_vel Twist '{linear: {x: 0.2}}' --rate 10",
+    "zteleop pub archangel/cmd_vel geometry_msgs/msg/Twist '{angular: {z: 0.5}}' --rate 10 --times 20",
+)
 HEARD_WITHIN = 3.0
 """s to wait for somebody who hears a topic"""
 TELL_AFTER = 1.0

@@ -6,6 +6,11 @@ from zteleop.errors import ConfigError
 from zteleop.interfaces.schema import text
 from zteleop.messages import MESSAGES
 
+EXAMPLES = (
+    "zteleop schema",
+    "zteleop schema elsewhere",
+)
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("folder", nargs="?", type=Path, default=Path("schemas"), help="default: schemas")

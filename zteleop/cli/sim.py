@@ -11,6 +11,10 @@ from zteleop.errors import DeviceError
 from zteleop.messages import Odometry
 from zteleop.nodes import simulator
 
+EXAMPLES = (
+    "zteleop sim",
+    "zteleop sim car --robot archangel",
+)
 SPEAKS_WITHIN = 1.0
 """s in which another one is heard, if it moves the same robot"""
 TELL_AFTER = 1.0

@@ -15,6 +15,10 @@ from zteleop.errors import BusError
 from zteleop.messages import DriveStatus
 from zteleop.nodes.stop_request import ACKNOWLEDGED_WITHIN, REPEAT, Stopping, person
 
+EXAMPLES = (
+    'zteleop stop archangel --why "a cat"',
+    "zteleop stop --release archangel",
+)
 GLANCE = 0.01
 
 

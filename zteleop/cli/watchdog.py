@@ -8,6 +8,10 @@ from zteleop.cli.why import state_of
 from zteleop.errors import BusError
 from zteleop.messages import WatchdogStatus
 
+EXAMPLES = (
+    "zteleop watchdog",
+    "zteleop watchdog archangel --once",
+)
 LINE_EVERY = 1.0
 HEARD_WITHIN = 2.0
 

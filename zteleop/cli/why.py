@@ -8,6 +8,10 @@ from zteleop.cli._company import who_is_here
 from zteleop.errors import BusError
 from zteleop.messages import DriveStatus, WatchdogStatus, Why
 
+EXAMPLES = (
+    "zteleop why",
+    "zteleop why archangel",
+)
 HEARD_WITHIN = 2.0
 
 

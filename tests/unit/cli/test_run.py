@@ -30,7 +30,7 @@ def verb(monkeypatch: pytest.MonkeyPatch) -> Verb:
         def add_arguments(parser: argparse.ArgumentParser) -> None:
             parser.add_argument("--speed", type=float)
 
-        module = SimpleNamespace(add_arguments=add_arguments, run=act)
+        module = SimpleNamespace(EXAMPLES=(), add_arguments=add_arguments, run=act)
         monkeypatch.setattr(_run, "import_module", {"zteleop.cli.fly": module}.__getitem__)
         monkeypatch.setattr(signals, "unwind", lambda: lambda: undone.append("undone"))
         monkeypatch.setitem(cli.VERBS, "fly", "fly a kite")
