@@ -138,7 +138,7 @@ def test_a_robot_that_is_told_to_end_writes_nothing_and_leaves_nobody(bench: Acc
     recorder = bench.recorder
     bench.watchdog.signal(signal.SIGTERM)
     assert bench.watchdog.ends() == 128 + signal.SIGTERM
-    assert not Path(f"/proc/{recorder}").exists()
+    until(lambda: not Path(f"/proc/{recorder}").exists(), "the end of its black box")
     assert not bench.folder.exists()
 
 
@@ -232,7 +232,7 @@ def test_whatever_is_said_it_is_told_and_nobody_dies(bench: Accident) -> None:
     bench.file("stop")
     assert bench.recorder == recorder
     told = bench.told()
-    in_order(told, "pwm/keyboard: nobody understood a message", "says stop")
+    in_order(told, "pwm/keyboard: nobody understood a message", "<- written because of this")
     assert "robot/*/stop: nobody understood a message" in told
     everything = bench.told("--all")
     assert "robot/bench/odd " in everything

@@ -17,6 +17,7 @@ VERBS = {
     "watchdog": "show what a robot's watchdog sees",
     "chaos": "do to a robot whatever can go wrong, and certify that it stops",
     "neutral": "bring a chip to rest with nothing else running",
+    "doctor": "say what hinders zteleop on this machine",
     "check": "check a config file",
     "schema": "write the JSON Schema of every message and of config.toml",
 }

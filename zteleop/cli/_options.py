@@ -50,12 +50,12 @@ def add_config(parser: argparse.ArgumentParser) -> None:
 
 def load(options: argparse.Namespace) -> Config:
     """Return the settings of the file meant, with what was typed on top."""
-    return _with_typed(options, config.load(options.config))
+    return with_typed(options, config.load(options.config))
 
 
 def load_anyhow(options: argparse.Namespace) -> Config:
     """Do the same, and where the file is not right go on with what can be read of it, and say so."""
-    return _with_typed(options, salvaged(options))
+    return with_typed(options, salvaged(options))
 
 
 def salvaged(options: argparse.Namespace) -> Config:
@@ -67,7 +67,8 @@ def salvaged(options: argparse.Namespace) -> Config:
     return settings
 
 
-def _with_typed(options: argparse.Namespace, settings: Config) -> Config:
+def with_typed(options: argparse.Namespace, settings: Config) -> Config:
+    """Return settings with what was typed on top."""
     typed = {
         "mode": options.mode,
         "connect": options.connect,

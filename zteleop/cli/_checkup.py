@@ -1,0 +1,159 @@
+"""What zteleop runs on, and what each of it must be: one check, one line in the table at the end."""
+
+import os
+import platform
+import shutil
+import socket
+import sys
+from collections.abc import Callable
+from contextlib import closing
+from datetime import datetime
+from importlib import metadata
+from typing import NamedTuple
+
+from zteleop.bus import presence
+from zteleop.bus.lane import trial
+from zteleop.bus.session import open_session
+from zteleop.bus.settings import PORT
+from zteleop.cli._company import who_is_here
+from zteleop.config import Config
+from zteleop.errors import ZteleopError
+from zteleop.terminal.capabilities import speaks_unicode, wants_color
+
+OLDEST = (3, 11)
+PACKAGES = ("eclipse-zenoh", "msgspec", "PyYAML", "smbus2")
+BUILT = 2024
+"""the year before which no clock that is set can be"""
+
+
+class Patient(NamedTuple):
+    """What is looked at."""
+
+    settings: Config
+    wrong: str
+    """what is wrong with the config file, if anything"""
+    at_terminal: bool
+
+
+class Finding(NamedTuple):
+    """What a check came to."""
+
+    good: bool | None
+    """None: it may hinder some, and is worth knowing"""
+    words: str
+
+
+def python(patient: Patient) -> Finding:
+    found = f"{platform.python_version()} on {platform.system()} {platform.machine()}"
+    if sys.version_info < OLDEST:
+        return Finding(False, f"found {found}, expected {'.'.join(map(str, OLDEST))} or newer")
+    return Finding(True, found)
+
+
+def packages(patient: Patient) -> Finding:
+    found, missing = [f"zteleop {metadata.version('zteleop')}"], []
+    for name in PACKAGES:
+        try:
+            found.append(f"{name} {metadata.version(name)}")
+        except metadata.PackageNotFoundError:
+            missing.append(name)
+    if missing:
+        return Finding(
+            None if missing == ["smbus2"] else False, f"missing: {', '.join(missing)}; pip install them"
+        )
+    return Finding(True, ", ".join(found))
+
+
+def config_file(patient: Patient) -> Finding:
+    if patient.wrong:
+        return Finding(False, patient.wrong)
+    driver, robot = patient.settings.driver, patient.settings.robot or "no robot by name"
+    return Finding(True, f"driver {driver}, {robot}; zteleop check says more")
+
+
+def i2c(patient: Patient) -> Finding:
+    needed = patient.settings.driver == "pca9685"
+    hinders = False if needed else None
+    path = f"/dev/i2c-{patient.settings.driver_settings('pca9685', 'any').get('bus', 1)}"
+    if not os.path.exists(path):
+        todo = "is I2C enabled? sudo raspi-config nonint do_i2c 0" if needed else "only a real chip needs it"
+        return Finding(hinders, f"{path} is not there; {todo}")
+    if not os.access(path, os.R_OK | os.W_OK):
+        return Finding(hinders, f"{path} is not yours to use; sudo usermod -aG i2c $USER, and log in again")
+    return Finding(True, f"{path} can be used")
+
+
+def terminal(patient: Patient) -> Finding:
+    if not patient.at_terminal:
+        return Finding(None, "this is none; zteleop keyboard needs one")
+    columns, rows = shutil.get_terminal_size()
+    kind = os.environ.get("TERM", "")
+    if kind in ("", "dumb"):
+        return Finding(
+            False, f"TERM is {kind or 'not set'}, and nothing can be drawn; try TERM=xterm-256color"
+        )
+    colors = "colours" if wants_color(os.environ) else "no colours"
+    signs = "Unicode" if speaks_unicode(os.environ, sys.stdout.encoding) else "ASCII"
+    return Finding(
+        True, f"{kind}, {columns} x {rows}, {colors}, {signs}; key releases are guessed by repeats"
+    )
+
+
+def clock(patient: Patient) -> Finding:
+    now = datetime.now().astimezone()
+    if now.year < BUILT:
+        return Finding(
+            False, f"it says {now:%Y-%m-%d}, and so will recordings; sudo timedatectl set-ntp true"
+        )
+    return Finding(True, f"{now:%Y-%m-%d %H:%M %Z}; commands do not depend on it")
+
+
+def port(patient: Patient) -> Finding:
+    with closing(socket.socket(socket.AF_INET, socket.SOCK_STREAM)) as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind(("", PORT))
+            probe.listen()
+        except OSError as error:
+            words = f"{PORT}/tcp: {error.strerror}; a robot here may have it, another goes on without"
+            return Finding(None, words)
+    return Finding(True, f"{PORT}/tcp is free for a robot")
+
+
+def multicast(patient: Patient) -> Finding:
+    if not patient.settings.bus.multicast:
+        return Finding(None, "switched off: robots are found only where -e says")
+    try:
+        heard, why = trial.hears_itself(), "nothing comes back"
+    except OSError as error:
+        heard, why = False, str(error.strerror)
+    if not heard:
+        return Finding(False, f"{why}: robots are not found by themselves; say -e tcp/pi.local:{PORT}")
+    return Finding(True, "this machine hears what it says to a group")
+
+
+def robots(patient: Patient) -> Finding:
+    settings = patient.settings
+    try:
+        with open_session(settings.bus, settle=True) as session:
+            found = presence.robots(session)
+    except ZteleopError as error:
+        return Finding(False, str(error))
+    if settings.robot and settings.robot not in found:
+        return Finding(False, f"{settings.robot} is not heard, {who_is_here(found)}; is its actuator on?")
+    return Finding(
+        True if found else None, who_is_here(found) + ("" if found else "; zteleop demo starts one")
+    )
+
+
+CHECKS: dict[str, Callable[[Patient], Finding]] = {
+    "python": python,
+    "packages": packages,
+    "config": config_file,
+    "i2c": i2c,
+    "terminal": terminal,
+    "clock": clock,
+    "port": port,
+    "multicast": multicast,
+    "robots": robots,
+}
