@@ -151,11 +151,12 @@ def _mistakes(text: str, values: Any, name: str) -> str:
     """Return in a line each where a file is wrong and what may stand there."""
     from zteleop.text.mistakes import mistakes  # only where there are some
     from zteleop.text.toml_places import place
+    from zteleop.text.toml_places import places as places_of
 
     kinds: dict[tuple[str, ...], Any] = {("drivers", driver): settings_kind(driver) for driver in DRIVERS}
     found = list(islice(mistakes(values, Config, kinds), MOST))
-    lines = []
-    for path, words in sorted(found, key=lambda mistake: place(text, mistake.path) or ()):
-        where = ":".join([name, *map(str, place(text, path) or ())])
+    written, lines = places_of(text), []
+    for at, path, words in sorted((place(written, path) or (), path, words) for path, words in found):
+        where = ":".join([name, *map(str, at)])
         lines.append(": ".join(filter(None, (where, ".".join(path), words))))
     return "\n".join(lines)

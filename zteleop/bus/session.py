@@ -90,7 +90,7 @@ class Session(Protocol):
 def open_session(
     settings: BusSettings, *, settle: bool = False, door: bool = False, patient: bool = False
 ) -> Session:
-    """Join the bus; with `settle`, first wait (at most 1 s) until everybody is found.
+    """Join the bus; with `settle`, first wait (a second, longer on a busy machine) until everybody is found.
 
     With `door`, others join through this session. What is said waits for a place on a full link for a
     millisecond, then it is lost; with `patient`, for 5 s: for what is said once, and is no command.

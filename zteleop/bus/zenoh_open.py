@@ -41,7 +41,7 @@ _LOOK_EVERY, _QUIET, _LOOKS = 0.005, 12, 100
 def open_zenoh(
     settings: BusSettings, *, settle: bool = False, door: bool = False, patient: bool = False
 ) -> zenoh.Session:
-    """Join the bus; with `settle`, first wait (at most 1 s) until everybody is found.
+    """Join the bus; with `settle`, first wait (a second, longer on a busy machine) until everybody is found.
 
     With `door`, others join through this session; with `patient`, what is said waits for a full link.
 

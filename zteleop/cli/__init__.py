@@ -45,7 +45,7 @@ def main(argv: list[str] | None = None) -> int:
     """Run one verb; return 0 done, 1 error, 2 usage, 130 Ctrl-C, 143 SIGTERM."""
     _open_standard_files()
     try:
-        code = _dispatch([*(sys.argv[1:] if argv is None else argv)])
+        code = _dispatch(sys.argv[1:] if argv is None else argv)
         sys.stdout.flush()
         return code
     except KeyboardInterrupt:
@@ -78,7 +78,7 @@ def _dispatch(arguments: list[str]) -> int:
         print(f"zteleop {version('zteleop')}")
         return 0
     if arguments[1:] and arguments[1] in GROUPS.get(arguments[0], ()):
-        del arguments[0]
+        arguments = arguments[1:]
     if arguments[0] not in VERBS:
         print(f"zteleop: {_unknown(arguments[0])}", file=sys.stderr)
         return 2

@@ -1,7 +1,9 @@
 """What zteleop runs on, and what each of it must be: one check, one line in the table at the end."""
 
+import errno
 import os
 import platform
+import re
 import shutil
 import socket
 import sys
@@ -17,11 +19,10 @@ from zteleop.bus.session import open_session
 from zteleop.bus.settings import PORT
 from zteleop.cli._company import who_is_here
 from zteleop.config import Config
+from zteleop.drivers.i2c import failure
 from zteleop.errors import ZteleopError
 from zteleop.terminal.capabilities import speaks_unicode, wants_color
 
-OLDEST = (3, 11)
-PACKAGES = ("eclipse-zenoh", "msgspec", "PyYAML", "smbus2")
 BUILT = 2024
 """the year before which no clock that is set can be"""
 
@@ -44,22 +45,23 @@ class Finding(NamedTuple):
 
 
 def python(patient: Patient) -> Finding:
-    found = f"{platform.python_version()} on {platform.system()} {platform.machine()}"
-    if sys.version_info < OLDEST:
-        return Finding(False, f"found {found}, expected {'.'.join(map(str, OLDEST))} or newer")
-    return Finding(True, found)
+    return Finding(True, f"{platform.python_version()} on {platform.system()} {platform.machine()}")
 
 
 def packages(patient: Patient) -> Finding:
     found, missing = [f"zteleop {metadata.version('zteleop')}"], []
-    for name in PACKAGES:
+    needs = [
+        re.match(r"[\w-]+", line) for line in metadata.requires("zteleop") or () if "extra ==" not in line
+    ]
+    for name in [need[0] for need in needs if need]:
         try:
             found.append(f"{name} {metadata.version(name)}")
         except metadata.PackageNotFoundError:
             missing.append(name)
     if missing:
         return Finding(
-            None if missing == ["smbus2"] else False, f"missing: {', '.join(missing)}; pip install them"
+            None if missing == ["smbus2"] and not _real(patient) else False,
+            f"missing: {', '.join(missing)}; pip install them",
         )
     return Finding(True, ", ".join(found))
 
@@ -72,15 +74,18 @@ def config_file(patient: Patient) -> Finding:
 
 
 def i2c(patient: Patient) -> Finding:
-    needed = patient.settings.driver == "pca9685"
-    hinders = False if needed else None
     path = f"/dev/i2c-{patient.settings.driver_settings('pca9685', 'any').get('bus', 1)}"
-    if not os.path.exists(path):
-        todo = "is I2C enabled? sudo raspi-config nonint do_i2c 0" if needed else "only a real chip needs it"
-        return Finding(hinders, f"{path} is not there; {todo}")
-    if not os.access(path, os.R_OK | os.W_OK):
-        return Finding(hinders, f"{path} is not yours to use; sudo usermod -aG i2c $USER, and log in again")
-    return Finding(True, f"{path} can be used")
+    if os.access(path, os.R_OK | os.W_OK):
+        return Finding(True, f"{path} can be used")
+    if not _real(patient):
+        return Finding(None, f"{path} is not there, or not yours to use; only a real chip needs it")
+    number = errno.EACCES if os.path.exists(path) else errno.ENOENT
+    return Finding(False, str(failure(OSError(number, ""), path)))
+
+
+def _real(patient: Patient) -> bool:
+    """Say whether a real chip is to be driven."""
+    return patient.settings.driver == "pca9685"
 
 
 def terminal(patient: Patient) -> Finding:
@@ -137,7 +142,7 @@ def robots(patient: Patient) -> Finding:
     try:
         with open_session(settings.bus, settle=True) as session:
             found = presence.robots(session)
-    except ZteleopError as error:
+    except (ZteleopError, ImportError) as error:
         return Finding(False, str(error))
     if settings.robot and settings.robot not in found:
         return Finding(False, f"{settings.robot} is not heard, {who_is_here(found)}; is its actuator on?")

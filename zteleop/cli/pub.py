@@ -57,7 +57,7 @@ def run(arguments: argparse.Namespace) -> None:
     patient = times is not None and not _is_command(arguments.topic, robot)
     with _options.join("pub", msgspec.structs.replace(settings, robot=robot), patient) as node:
         name = resolve(arguments.topic, node.robot)
-        publisher = node.publisher(f"/{name.robot}/{name.path}", kind, wait=False)
+        publisher = node.publisher(f"/{name}", kind, wait=False)
         command = topic_of(name.path).command
         heard = _await_robot(node, publisher) if command else _await_hearer(node, publisher, name)
         resume = Resume(publisher.sender) if arguments.resume and publisher.sender else None

@@ -221,7 +221,7 @@ class Watchdog:
             return None
         counted = min(standing.counted, self._judge.last_counted(standing.sender))
         floor = max(standing.floor, self._judge.released)
-        return standing._replace(floor=floor, counted=max(counted, 0.0))
+        return standing._replace(floor=floor, counted=max(counted, 0.0))  # JSON has no infinity
 
     @property
     def _never_stepped(self) -> bool:

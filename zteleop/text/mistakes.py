@@ -61,18 +61,26 @@ def _table(
     if not isinstance(values, dict):
         yield Mistake(path, f"expected a table, found {_found(values)}")
         return
+    wrong = False
+    for mistake in _entries(values, cls, kinds, path):
+        wrong = True
+        yield mistake
+    if not wrong:
+        yield from _whole({**values, **(tag or {})}, cls, path)
+
+
+def _entries(
+    values: Mapping[str, object], cls: Any, kinds: Mapping[Path, Any], path: Path
+) -> Iterator[Mistake]:
     fields = {field.encode_name: field for field in msgspec.structs.fields(cls)}
-    found = [
-        Mistake((*path, name), f"no such setting; {nearest(name, fields)}")
-        for name in values
-        if name not in fields
-    ]
+    for name in values:
+        if name not in fields:
+            yield Mistake((*path, name), f"no such setting; {nearest(name, fields)}")
     for name, field in fields.items():
         if name in values:
-            found += mistakes(values[name], field.type, kinds, (*path, name))
+            yield from mistakes(values[name], field.type, kinds, (*path, name))
         elif field.required:
-            found.append(Mistake(path, f"expected {name} as well"))
-    yield from found or _whole({**values, **(tag or {})}, cls, path)
+            yield Mistake(path, f"expected {name} as well")
 
 
 def _whole(values: dict[str, object], cls: Any, path: Path) -> Iterator[Mistake]:

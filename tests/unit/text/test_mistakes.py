@@ -6,6 +6,7 @@ from hypothesis import strategies as st
 from msgspec import Meta, Struct, convert
 
 from zteleop.config import Config
+from zteleop.text import mistakes as module
 from zteleop.text.mistakes import mistakes
 
 
@@ -69,6 +70,7 @@ def told(values: object) -> list[str]:
             {"body": {"kind": "tnak"}},
             ["body.kind: expected 'car' or 'tank', found 'tnak'; did you mean tank?"],
         ),
+        ({"body": {"kind": []}}, ["body.kind: expected 'car' or 'tank', found a list"]),
         ({"body": {"length": 1}}, ["body: expected a table with kind = 'car' or 'tank', found a table"]),
         (
             {"body": {"kind": "car", "length": 3}},
@@ -89,6 +91,15 @@ def told(values: object) -> list[str]:
 )
 def test_every_mistake_is_told_where_it_is(values: object, words: list[str]) -> None:
     assert told(values) == words
+
+
+def test_no_more_is_looked_at_than_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A stop reads the file, too: it waits for no thousand suggestions."""
+    asked: list[str] = []
+    monkeypatch.setattr(module, "nearest", lambda name, known: asked.append(name) or "")
+    found = mistakes({f"x{number}": 1 for number in range(1000)}, Robot)
+    assert [next(found).path for _ in range(2)] == [("x0",), ("x1",)]
+    assert asked == ["x0", "x1"]
 
 
 PLAIN = st.recursive(

@@ -1,9 +1,9 @@
 import pytest
 
-from zteleop.text.toml_places import place
+from zteleop.text.toml_places import place, places
 
 TEXT = """
-robot = "abe"   # driver = "x"
+robot = "abe"   # \u2028 driver = "x"
 [drive.limits]
   speed = 1
 [ drive . "servos" . steering ]
@@ -34,4 +34,4 @@ driver = "y"
 def test_each_name_stands_where_it_is_written_first(
     path: tuple[str, ...], at: tuple[int, int] | None
 ) -> None:
-    assert place(TEXT, path) == at
+    assert place(places(TEXT), path) == at
