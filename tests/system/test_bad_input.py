@@ -37,7 +37,7 @@ LEFT = "\x1b[D"
 OUTPUT = "Currently outputting:[Steering PWM, Throttle PWM] = "
 GOOD = ((Twist.planar(0.0, 0.05), (401, 370)), (Pwm(381, 370), (381, 370)))
 """Commands of the steering alone, to places where nothing bad sends it."""
-PRESSED = {"a": (390, 370), "d": (360, 370), "w": (375, 371), "s": (375, 369)}
+PRESSED = {"a": (390, 370), "d": (360, 370), "w": (375, 374), "s": (375, 366)}
 KEYS = cycle([*PRESSED.items(), *((key.upper(), pattern) for key, pattern in PRESSED.items())])
 """A key that was down when a robot changed does nothing for a while: so each time another one."""
 COMMANDS = {"cmd_vel": (TwistStamped, Twist), "pwm": (Pwm, Int16MultiArray)}

@@ -93,7 +93,7 @@ def test_a_sender_that_falls_silent_is_told_with_all_that_it_did(bench: Accident
         bench.told(),
         f"black box of {bench.rig.robot}: link lost",
         f"keyboard {bench.pwm.sender[-4:]} begins: steering 390, throttle 400",
-        "driving: keyboard drives",
+        f"driving: keyboard {bench.pwm.sender[-4:]} drives",
         f"keyboard {bench.pwm.sender[-4:]} says its last word (20 a second until then)",
         "0.00 s  link lost: keyboard has been silent for 0.3 s   <- written because of this",
         "pulses at rest: steering 375, throttle 370",

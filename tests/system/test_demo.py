@@ -80,7 +80,7 @@ def test_two_demos_at_once_do_not_disturb_each_other(pair: Pair) -> None:
     assert "nobody operates" in screen.screen
     assert robot_of(screen) != robot
     screen.type(UP * 20)
-    screen.shows("[375, 390]", "driving, you operate", "moving    +0.")
+    screen.shows("[375, 393]", "driving, you operate", "moving    +0.")
     screen.type("q")
     assert screen.ends() == 0
     assert processes(robot) or figure.ends() == 0, "it drives on, or has driven to its end"
@@ -92,7 +92,7 @@ def test_a_key_ends_all_of_it(screen: Terminal, key: str) -> None:
     assert robot in screen.screen
     assert len(processes(robot)) == 2, "an actuator and a simulator"
     screen.type(UP * 3)
-    screen.shows("[375, 373]", "driving, you operate", "chip      throttle 373")
+    screen.shows("[375, 376]", "driving, you operate", "out       throttle 376")
     screen.type(key)
     assert screen.ends() == 0
     assert processes(robot) == []

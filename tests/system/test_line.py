@@ -94,15 +94,24 @@ def test_keys_move_levers_that_stay_and_end_exactly_at_the_limit(rig: Rig, steps
     stands(rig, 390, 370)
     steps.shows(f"{OUTPUT}[390, 370]", "you operate")
     steps.type(UP * 10)
-    stands(rig, 390, 380)
+    stands(rig, 390, 383)
     steps.type(RIGHT * 9)
-    stands(rig, 290, 380)
-    steps.shows(f"{OUTPUT}[290, 380]", "steering  [      O>>>>>>]  right 6/6")
+    stands(rig, 290, 383)
+    steps.shows(f"{OUTPUT}[290, 383]", "steering  ▕      │██████▏  right 6/6")
     steps.type(" ")
     stands(rig, 290, 370)
     steps.type("x")
     stands(rig, *NEUTRAL)
     steps.shows(f"{OUTPUT}[375, 370]")
+
+
+def test_a_question_mark_shows_every_key_and_driving_goes_on(rig: Rig, steps: Terminal) -> None:
+    steps.type("?")
+    steps.shows("up w", "forward, a step each press", "backspace", "STOP the robot, until it is released")
+    steps.type(LEFT)
+    stands(rig, 390, 370)
+    steps.type("?")
+    steps.shows("left 1/6", "allowed")
 
 
 def test_the_car_moves_and_the_screen_shows_where_in_colours(rig: Rig, steps: Terminal) -> None:
@@ -118,7 +127,7 @@ def test_the_car_moves_and_the_screen_shows_where_in_colours(rig: Rig, steps: Te
 def test_q_leaves_neutral_on_the_chip_and_the_terminal_as_found(rig: Rig, steps: Terminal) -> None:
     assert steps.modes() != steps.found
     steps.type(LEFT + UP)
-    stands(rig, 390, 371)
+    stands(rig, 390, 374)
     steps.type("q")
     assert steps.ends() == 0
     stands(rig, *NEUTRAL)
@@ -127,7 +136,7 @@ def test_q_leaves_neutral_on_the_chip_and_the_terminal_as_found(rig: Rig, steps:
 
 def test_sigterm_leaves_neutral_on_the_chip_and_the_terminal_as_found(rig: Rig, steps: Terminal) -> None:
     steps.type(LEFT + UP)
-    stands(rig, 390, 371)
+    stands(rig, 390, 374)
     steps.signal(signal.SIGTERM)
     stands(rig, *NEUTRAL)
     assert steps.ends() == 143
@@ -137,7 +146,7 @@ def test_sigterm_leaves_neutral_on_the_chip_and_the_terminal_as_found(rig: Rig, 
 def test_a_repeating_key_drives_and_its_end_is_neutral(rig: Rig, held: Terminal) -> None:
     with repeating(lambda: held.type("w"), REPEAT), Watch(rig) as watch:
         until(lambda: rig.ticks[1] >= NEUTRAL[1] + 20, "the speed that the screen says")
-        held.shows("wanted        +0.50 m/s", "driving")
+        held.shows("asked     +0.50 m/s", "driving")
     stands(rig, *NEUTRAL)
     held.shows("idle")  # it was let go, and did not fall silent
     grown = {throttle for _, throttle in watch.seen}
@@ -145,12 +154,12 @@ def test_a_repeating_key_drives_and_its_end_is_neutral(rig: Rig, held: Terminal)
 
 
 def test_u_raises_the_speed_shown_and_moves_nothing(rig: Rig, held: Terminal) -> None:
-    held.shows("full stick     0.50 m/s")
+    held.shows("full      0.50 m/s")
     with Watch(rig) as watch:
         held.type("u")
-        held.shows("full stick     0.55 m/s")
+        held.shows("full      0.55 m/s")
         held.type("jj")
-        held.shows("full stick     0.45 m/s")
+        held.shows("full      0.45 m/s")
     assert watch.seen == {NEUTRAL}
 
 
@@ -158,12 +167,12 @@ def test_without_an_actuator_the_screen_says_so_and_what_was_pressed_never_drive
     keyboard = own.keyboard()
     keyboard.shows("no actuator heard on robot bench; start `zteleop actuator --robot bench`")
     keyboard.type(LEFT + UP)
-    keyboard.shows(f"{OUTPUT}[390, 371]")
+    keyboard.shows("asked     [390, 374]  not obeyed", f"{OUTPUT}[-, -]")
     own.actuator()
     keyboard.shows("idle", "nobody operates", f"{OUTPUT}[375, 370]")
     stays_neutral(own, 0.7)  # and nobody can have held a key for so long without a repeat
     keyboard.type(LEFT + UP)
-    stands(own, 390, 371)
+    stands(own, 390, 374)
 
 
 def test_a_key_held_through_a_restart_does_not_drive_until_let_go(own: Rig) -> None:
@@ -198,10 +207,10 @@ def without_color(output: bytes) -> bool:
 @pytest.mark.parametrize(
     ("columns", "environment", "shown", "fits"),
     [
-        (20, {}, ["● driving", "PWM       [390, 371]"], narrow),
-        (80, {"TERM": "dumb"}, ["driving", "[390, 371]"], without_escapes),
-        (80, {"LC_ALL": "", "LANG": "C"}, ["* driving", f"{OUTPUT}[390, 371]"], bytes.isascii),
-        (80, {"NO_COLOR": "1"}, ["● driving", f"{OUTPUT}[390, 371]"], without_color),
+        (20, {}, ["● driving", "out      [390, 374]"], narrow),
+        (80, {"TERM": "dumb"}, ["driving", "[390, 374]"], without_escapes),
+        (80, {"LC_ALL": "", "LANG": "C"}, ["* driving", f"{OUTPUT}[390, 374]"], bytes.isascii),
+        (80, {"NO_COLOR": "1"}, ["● driving", f"{OUTPUT}[390, 374]"], without_color),
     ],
     ids=["20 columns", "TERM=dumb", "LANG=C", "NO_COLOR"],
 )
@@ -214,7 +223,7 @@ def test_a_poor_terminal_drives_as_well(
 ) -> None:
     with operating(rig, rig.keyboard(columns=columns, environment=environment)) as keyboard:
         keyboard.type(LEFT + UP)
-        stands(rig, 390, 371)
+        stands(rig, 390, 374)
         keyboard.shows(*shown)
         assert fits(keyboard.output)
     keyboard.is_as_found()
@@ -222,7 +231,7 @@ def test_a_poor_terminal_drives_as_well(
 
 def test_a_window_may_be_resized(rig: Rig, steps: Terminal) -> None:
     for columns, rows, output in (
-        (20, 8, "PWM       "),
+        (20, 8, "out      "),
         (132, 40, OUTPUT),
         (20, 1, "idle  "),
         (80, 24, OUTPUT),
@@ -237,17 +246,20 @@ def test_a_window_that_is_small_for_a_moment_is_drawn_anew(rig: Rig, steps: Term
     steps.resize(1, 1)
     steps.resize(80, 24)
     steps.type(LEFT)
-    steps.shows("step drive", f"{OUTPUT}[390, 370]", "steering  [", "throttle  [", "q quit")
+    steps.shows("step drive", f"{OUTPUT}[390, 370]", "steering  ▕", "throttle  ▕", "q quit")
 
 
 def test_of_two_keyboards_the_first_drives_until_it_lets_go(rig: Rig, steps: Terminal) -> None:
     with operating(rig, rig.keyboard()) as second:
         steps.type(UP * 5)
-        stands(rig, 375, 375)
+        stands(rig, 375, 378)
         with Watch(rig) as watch:
             second.type(LEFT)
-            second.shows("driving, keyboard", " operates", f"{OUTPUT}[390, 370]", "another sender drives")
-        assert watch.seen == {(375, 375)}
+            second.shows("driving, keyboard", " operates", f"{OUTPUT}[375, 378]")
+            second.shows(
+                "asked     [390, 370]  not obeyed", "you are not obeyed: another sender drives this source"
+            )
+        assert watch.seen == {(375, 378)}
         second.type("x")
         steps.type("x")
         stands(rig, *NEUTRAL)
@@ -261,7 +273,7 @@ def test_whoever_lets_go_and_presses_again_in_one_breath_begins_anew(rig: Rig, s
     """Over a slow link several keys come at once."""
     with operating(rig, rig.keyboard()) as second:
         steps.type(UP * 5)
-        stands(rig, 375, 375)
+        stands(rig, 375, 378)
         second.type(LEFT)
         second.shows("another sender drives")
         steps.type("x")
@@ -281,6 +293,6 @@ def test_without_a_terminal_it_says_so(rig: Rig) -> None:
 def test_five_seconds_without_a_key_bring_steering_and_throttle_to_neutral(left: Left) -> None:
     left.keyboard.shows(f"{OUTPUT}[375, 370]", "at rest")
     stands(left.rig, *NEUTRAL)
-    assert [ticks for _, ticks in left.watch.changes][-2:] == [(390, 371), NEUTRAL]
+    assert [ticks for _, ticks in left.watch.changes][-2:] == [(390, 374), NEUTRAL]
     left.keyboard.type(UP)
-    stands(left.rig, 375, 371)
+    stands(left.rig, 375, 374)

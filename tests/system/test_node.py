@@ -113,7 +113,7 @@ def test_a_program_drives_as_source_program_and_ends_at_sigterm(rig: Rig, node: 
     turner = program(rig, TURNING.format(period=0.1))
     until(lambda: rig.ticks == FULL_LEFT, "the wheels to the left")
     status = hear(statuses, lambda status: status.state == "driving", "who drives")
-    assert (status.source, status.why) == ("program", "program drives")
+    assert (status.source, status.why) == ("program", f"program {status.operator[-4:]} drives")
     turner.signal(signal.SIGTERM)
     assert turner.ends() == 143
     until(lambda: rig.ticks == NEUTRAL, "neutral")

@@ -87,7 +87,7 @@ def test_a_stop_that_is_pressed_holds_until_it_is_released_and_arms_nothing(
 ) -> None:
     for _ in range(3):
         keyboard.type(LEFT + UP)
-        until(lambda: rig.ticks == (390, 371), "levers on the chip")
+        until(lambda: rig.ticks == (390, 374), "levers on the chip")
         keyboard.type(DELETE)
         rests(rig)
         keyboard.shows("● stopped", "bench is stopped (neutral read back", f"{OUTPUT}[375, 370]")
@@ -165,12 +165,12 @@ def test_levers_moved_while_stopped_stand_at_neutral_when_it_is_released(
     stop_by_shell(rig)
     keyboard.shows("● stopped", "backspace STOP   r release")
     keyboard.type(LEFT + UP)
-    keyboard.shows(f"{OUTPUT}[390, 371]")
+    keyboard.shows("asked     [390, 374]  not obeyed", f"{OUTPUT}[375, 370]")
     keyboard.type("r")
     keyboard.shows("● idle", f"{OUTPUT}[375, 370]")
     stays_neutral(rig, 0.7)
     keyboard.type(UP)
-    until(lambda: rig.ticks == (375, 371), "a new act on the chip")
+    until(lambda: rig.ticks == (375, 374), "a new act on the chip")
 
 
 def test_of_two_stops_by_two_people_each_is_released_by_its_own_name(

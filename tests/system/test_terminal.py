@@ -55,7 +55,7 @@ def end(number, frame):
 
 for number in (signal.SIGTERM, signal.SIGHUP):
     signal.signal(number, end)
-channels = [Channel(n, i, 1.0, 2.0, 3.0, 290, 375, 460) for i, n in enumerate(("steering", "throttle"))]
+channels = [Channel(n, i, 1.0, 2.0, 3.0, 290, 375, 460, 0) for i, n in enumerate(("steering", "throttle"))]
 car = Vehicle("ackermann", channels, 1.0, 2.0, 0.25, 0.4, 5.0, 4.08, True)
 with Keyboard("step") as keyboard:
     keyboard.fit(car)

@@ -14,7 +14,7 @@ def pressed(rig: Rig) -> Terminal:
     keyboard = rig.keyboard()
     keyboard.shows("idle")
     keyboard.type(LEFT + UP)
-    until(lambda: rig.ticks == (390, 371), "levers on the chip")
+    until(lambda: rig.ticks == (390, 374), "levers on the chip")
     return keyboard
 
 

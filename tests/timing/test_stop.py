@@ -15,7 +15,7 @@ def test_a_stop_that_is_pressed_brings_neutral_at_once(rig: Rig) -> None:
     keyboard = rig.keyboard()
     keyboard.shows("idle")
     keyboard.type(LEFT + UP)
-    until(lambda: rig.ticks == (390, 371), "levers on the chip")
+    until(lambda: rig.ticks == (390, 374), "levers on the chip")
     deadline = Deadline(rig)
     keyboard.type(DELETE)
     deadline.met(lambda: rig.ticks == NEUTRAL, "neutral on the chip", AT_ONCE)

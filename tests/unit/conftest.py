@@ -23,8 +23,8 @@ def node(clock: Clock) -> FakeNode:
 def car() -> Vehicle:
     """The Donkeycar nodes' numbers, left being the larger one; throttle with asymmetric ends."""
     channels = [
-        Channel("steering", 1, 1000.0, 1500.0, 2000.0, 290, 375, 460),
-        Channel("throttle", 0, 1000.0, 1500.0, 2000.0, 355, 370, 400),
+        Channel("steering", 1, 1000.0, 1500.0, 2000.0, 290, 375, 460, 0),
+        Channel("throttle", 0, 1000.0, 1500.0, 2000.0, 355, 370, 400, 0),
     ]
     return Vehicle("ackermann", channels, 1.0, 2.0, 0.25, 0.4, 5.0, 4.08, True)
 
@@ -32,6 +32,6 @@ def car() -> Vehicle:
 @pytest.fixture
 def tank() -> Vehicle:
     channels = [
-        Channel(name, i, 1000.0, 1500.0, 2000.0, 205, 307, 410) for i, name in enumerate(("left", "right"))
+        Channel(name, i, 1000.0, 1500.0, 2000.0, 205, 307, 410, 0) for i, name in enumerate(("left", "right"))
     ]
     return Vehicle("differential", channels, 0.3, 1.5, 0.0, 0.0, 3.0, 4.08, True)

@@ -10,6 +10,7 @@ from zteleop.config import Config
 from zteleop.control.report import to_vehicle
 from zteleop.drivers import tick_us
 from zteleop.inputs.keyboard import Keyboard
+from zteleop.inputs.keymap import KEYS, describe
 from zteleop.inputs.levers import Steps
 from zteleop.messages import Vehicle
 from zteleop.nodes.teleop import Teleop
@@ -28,12 +29,20 @@ HEARD_WITHIN = 0.6
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add(parser)
+    parser.epilog = f"{key_table()}\n\n{parser.epilog}"
     parser.add_argument(
         "--drive",
         choices=["step", "hold"],
         help="step: every press moves a lever, and there it stays; hold: drive while a key is held "
         "(default: step for cars, else hold)",
     )
+
+
+def key_table() -> str:
+    """Return what each key does, unless the config file says otherwise."""
+    told = describe(KEYS)
+    room = max(len(keys) for keys, _ in told) + 2
+    return "\n  ".join(["keys:", *(f"{keys:<{room}}{does}" for keys, does in told)])
 
 
 def run(arguments: argparse.Namespace) -> None:
@@ -81,7 +90,16 @@ def painter(keyboard: Keyboard, robot: str, steps: Steps) -> Callable[[View], No
         terminal = keyboard.terminal
         columns, rows = terminal.size()
         left = keyboard.idle_left(view.now)
-        dashboard = Dashboard(robot, keyboard.drive, keyboard.speeds, view, trail, left, steps)
+        dashboard = Dashboard(
+            robot=robot,
+            drive=keyboard.drive,
+            speeds=keyboard.speeds,
+            seen=view,
+            trail=trail,
+            idle_left=left,
+            steps=steps,
+            keys=keyboard.help,
+        )
         terminal.draw(render(dashboard, columns, rows, unicode=terminal.unicode, color=terminal.color))
 
     return paint

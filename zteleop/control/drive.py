@@ -9,7 +9,7 @@ from zteleop.control.gate import Refusal
 from zteleop.control.mixer import Wheels
 from zteleop.control.movement import Movement
 from zteleop.control.mux import Claim
-from zteleop.control.proof import Proof
+from zteleop.control.proof import Proof, called
 from zteleop.control.settings import DriveSettings
 from zteleop.messages import Pwm, State, Twist
 
@@ -53,7 +53,8 @@ class Drive:
             rest, neutral_us = self.calibration.rest, self.calibration.neutral_us
             return Step(*self.admission.rest(now), None, rest, neutral_us, bound)
         pulse_us = self.calibration.pulse_us(wheels)
-        return Step("driving", f"{claim.source} drives", claim, wheels, pulse_us, bound)
+        who = called(claim.source, f"{claim.sender:x}")
+        return Step("driving", f"{who} drives", claim, wheels, pulse_us, bound)
 
     def _measure(self, source: str, verdict: Verdict, age: float, now: float) -> None:
         """Note how old a command was; what cannot prove it counts as old as a command may be."""

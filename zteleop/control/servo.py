@@ -16,6 +16,8 @@ class Servo(Struct, frozen=True, forbid_unknown_fields=True):
     min_us: PulseWidth = 1000.0
     neutral_us: PulseWidth = 1500.0
     max_us: PulseWidth = 2000.0
+    dead_zone_us: Annotated[float, Meta(ge=0, le=200)] = 0.0
+    """To either side of neutral, where a motor does not turn yet; steps begin beyond it."""
     slew_rate: Annotated[float, Meta(gt=0)] | None = None
     """Fractions of full range a second; None is as fast as it can."""
 
@@ -39,5 +41,14 @@ class Servo(Struct, frozen=True, forbid_unknown_fields=True):
 
     def to_channel(self, name: str, tick_us: float) -> Channel:
         """Return the calibration in microseconds and in ticks of the chip."""
-        widths = (self.min_us, self.neutral_us, self.max_us)
-        return Channel(name, self.channel, *widths, *(round(width / tick_us) for width in widths))
+        return Channel(
+            name=name,
+            channel=self.channel,
+            min_us=self.min_us,
+            neutral_us=self.neutral_us,
+            max_us=self.max_us,
+            min_ticks=round(self.min_us / tick_us),
+            neutral_ticks=round(self.neutral_us / tick_us),
+            max_ticks=round(self.max_us / tick_us),
+            dead_ticks=int(self.dead_zone_us / tick_us),
+        )

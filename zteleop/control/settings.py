@@ -12,7 +12,7 @@ from zteleop.control.mux import Source
 from zteleop.control.servo import Servo
 
 DONKEYCAR = {
-    "throttle": Servo(channel=0, min_us=897.6, neutral_us=1509.6, max_us=2040.0),
+    "throttle": Servo(channel=0, min_us=897.6, neutral_us=1509.6, max_us=2040.0, dead_zone_us=15.0),
     "steering": Servo(channel=1, min_us=1183.2, neutral_us=1530.0, max_us=1876.8),
 }
 """220, 370, 500 and 290, 375, 460 ticks at 60 Hz, as Donkeycar ships them."""

@@ -7,7 +7,7 @@ from zteleop.control.stick import Speeds, Stick
 from zteleop.errors import DeviceError
 from zteleop.inputs import Wish
 from zteleop.inputs.held_keys import FIRST, REPEATING, Block, HeldKeys
-from zteleop.inputs.keymap import DIRECTIONS, bindings
+from zteleop.inputs.keymap import DIRECTIONS, bindings, describe
 from zteleop.inputs.levers import Axis, Levers, Steps
 from zteleop.inputs.speed_keys import FASTER, SLOWER, SpeedKeys
 from zteleop.inputs.wishes import Wishes
@@ -78,6 +78,11 @@ class Keyboard:
     @wish.setter
     def wish(self, wish: Wish | None) -> None:
         self._wishes.newest = wish
+
+    @property
+    def help(self) -> list[tuple[str, str]]:
+        """The keys of each action and what they do, while the operator wants to see them."""
+        return describe(self._bindings, self.drive) if self._wishes.help else []
 
     def fileno(self) -> int:
         """Return what turns readable when a key was pressed."""
@@ -183,6 +188,10 @@ class Keyboard:
         """Write the screen anew."""
         self.terminal.redraw()
 
+    def toggle_help(self) -> None:
+        """Show what each key does, or hide it."""
+        self._wishes.help = not self._wishes.help
+
     def faster(self) -> None:
         """Raise the forward speed."""
         self._speed_keys.scale(forward=FASTER)
@@ -212,6 +221,7 @@ ACTIONS: dict[str, Callable[[Keyboard], None]] = {
     "quit": Keyboard.quit,
     "suspend": Keyboard.ask_to_suspend,
     "redraw": Keyboard.redraw,
+    "help": Keyboard.toggle_help,
 }
 
 

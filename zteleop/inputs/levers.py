@@ -24,7 +24,7 @@ class Steps(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Lever:
-    """One axis, in whole steps from neutral; the last step before an end may be shorter."""
+    """One axis, in whole steps from neutral, or from the end of its dead zone; the last may be shorter."""
 
     def __init__(self, channel: Channel, step: int) -> None:
         self.channel = channel
@@ -39,18 +39,18 @@ class Lever:
 
     def most(self, sign: int) -> int:
         """Return how many steps there are from neutral to one end."""
-        return -(-abs(self._span(sign)) // self._step)
+        return -(-max(0, abs(self._span(sign)) - self.channel.dead_ticks) // self._step)
 
     def count(self, ticks: int) -> int:
         """Return how many steps from neutral these ticks are, rounded away from it."""
         moved = ticks - self.channel.neutral_ticks
-        steps = -(-abs(moved) // self._step)
+        steps = -(-max(0, abs(moved) - self.channel.dead_ticks) // self._step)
         return steps if moved * self._span(1) > 0 or moved * self._span(-1) < 0 else -steps
 
     @property
     def ticks(self) -> int:
         span = self._span(self.steps)
-        moved = min(abs(self.steps) * self._step, abs(span))
+        moved = min(abs(self.steps) * self._step + self.channel.dead_ticks, abs(span)) if self.steps else 0
         return self.channel.neutral_ticks + (moved if span > 0 else -moved)
 
     @property

@@ -1,4 +1,4 @@
-"""What an operator asks of the robot besides driving, by keys that repeat while they are held."""
+"""What an operator asks besides driving: of the robot, by keys that repeat while held, and of the screen."""
 
 from zteleop.inputs import Wish
 
@@ -8,6 +8,8 @@ class Wishes:
 
     def __init__(self) -> None:
         self.newest: Wish | None = None
+        self.help = False
+        """Show what each key does."""
         self._asked = dict.fromkeys(Wish, float("-inf"))
 
     def ask(self, wish: Wish, gap: float, now: float) -> None:

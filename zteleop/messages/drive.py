@@ -46,6 +46,8 @@ class Channel(Message):
     min_ticks: int
     neutral_ticks: int
     max_ticks: int
+    dead_ticks: int
+    """To either side of neutral, where a motor does not turn yet."""
 
 
 class Vehicle(Message):

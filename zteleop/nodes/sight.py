@@ -5,6 +5,9 @@ from zteleop.control.deadlines import LINK_LOSS
 from zteleop.control.hold import HOLDS
 from zteleop.messages import DriveStatus, Log, Odometry, Vehicle
 
+NEWS = 10.0
+"""s that a line of the log is shown; what it says may be over by then"""
+
 
 class Sight:
     """One robot: whether it is heard, is the same, rests, and what it says of itself."""
@@ -23,6 +26,7 @@ class Sight:
         self._at_rest = False
         self._odom: Odometry | None = None
         self._log = ""
+        self._log_at = float("-inf")
 
     def look(self, now: float) -> bool:
         """Take in what came; True where whoever acts must begin anew.
@@ -53,9 +57,8 @@ class Sight:
         self._odom = self._odoms.newest() or self._odom
         return self._odom
 
-    @property
-    def log(self) -> str:
-        """The latest line of its log, and of everybody's."""
+    def log(self, now: float) -> str:
+        """Return the latest line of its log, and of everybody's, while it is news."""
         if newest := self._logs.newest():
-            self._log = f"{newest.name}: {newest.msg}"
-        return self._log
+            self._log, self._log_at = f"{newest.name}: {newest.msg}", now
+        return self._log if now - self._log_at < NEWS else ""

@@ -147,14 +147,21 @@ class Teleop:
         publisher = self._pwms if self._device.drive == "step" else self._twists
         status = self._sight.status
         ours = status is not None and status.operator == publisher.sender
-        note, alarm = self._news(now), self._stopping.unanswered
-        if status and not alarm and publisher.refused.partition(" (")[0] not in status.why:
-            note = publisher.refused
-        odom = self._sight.odom
-        return View(now, self._vehicle, self._stick, self._wanted, status, ours, odom, note, alarm)
+        return View(
+            now=now,
+            vehicle=self._vehicle,
+            stick=self._stick,
+            command=self._wanted,
+            status=status,
+            ours=ours,
+            refused=publisher.refused,
+            odom=self._sight.odom,
+            note=self._news(now),
+            alarm=self._stopping.unanswered,
+        )
 
     def _news(self, now: float) -> str:
         """Return what the robot answers to a stop or a release, for a while; else the latest of the log."""
-        log, asking = self._sight.log, self._stopping
+        log, asking = self._sight.log(now), self._stopping
         pending = asking.state == "pending" or asking.unanswered
         return asking.words if pending or now - asking.ended < NEWS else log

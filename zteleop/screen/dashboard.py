@@ -5,13 +5,15 @@ from typing import Literal, NamedTuple
 
 from zteleop.control.stick import Speeds
 from zteleop.inputs.levers import Steps
+from zteleop.messages import Channel, Vehicle
+from zteleop.screen.top_view import Mark
 from zteleop.screen.view import View
 from zteleop.terminal.cells import Span
 
 WIDE = 62
 """Columns from which on the lines are laid out as the Donkeycar nodes did."""
-TABLE = 44
-"""Columns that a table of two columns takes."""
+LABEL = 10
+"""Columns that the name of a line takes; fewer in a small window."""
 
 
 class Dashboard(NamedTuple):
@@ -25,6 +27,20 @@ class Dashboard(NamedTuple):
     idle_left: float | None = None
     """s until neutral for want of a key; None when it is neutral already"""
     steps: Steps = Steps()
+    floor: Sequence[Mark] = ()
+    """lies around the robot"""
+    keys: Sequence[tuple[str, str]] = ()
+    """which, and what each does; shown instead of values and picture where there are any"""
+
+    @property
+    def asks(self) -> bool:
+        """Whether the operator asks for anything but rest."""
+        return self.seen.command is not None
+
+    @property
+    def obeyed(self) -> bool:
+        """Whether the robot does what this operator asks, as far as its limits allow."""
+        return self.seen.ours and self.seen.status is not None and self.seen.status.state == "driving"
 
 
 class Line(NamedTuple):
@@ -37,3 +53,14 @@ class Line(NamedTuple):
 def line(rank: int, text: str = "", style: str = "") -> Line:
     """Return a line in one style."""
     return Line(rank, [Span(text, style)])
+
+
+def labelled(rank: int, name: str, text: str, columns: int, style: str = "") -> Line:
+    """Return a line that begins with its name, which a small window cuts."""
+    room = LABEL if columns >= 24 else 9 if columns >= 20 else 6
+    return Line(rank, [Span(name[: room - 1].ljust(room)), Span(text, style)])
+
+
+def channel(vehicle: Vehicle | None, name: str) -> Channel | None:
+    """Return a vehicle's channel of this name."""
+    return next((c for c in vehicle.channels if c.name == name), None) if vehicle else None

@@ -1,16 +1,19 @@
 """What an operator sees, as lines for a terminal of any size."""
 
+from math import isfinite
+
 from zteleop.screen.dashboard import Dashboard, Line
-from zteleop.screen.readings import brief, footer, readings, steering_angle
+from zteleop.screen.footer import footer
+from zteleop.screen.readings import brief, readings
 from zteleop.screen.top_view import draw
 from zteleop.terminal.cells import Span, fit, pad, paint, width
 
 __all__ = ["Dashboard", "render"]
 
-BESIDE = 70
+BESIDE = 58
 """Columns from which on the picture stands at the right."""
-LEFT = 44
-"""Columns that the lines keep beside it."""
+ROOMY = 80
+"""Columns from which on no line of values is as wide as what the lines keep beside it."""
 LEAST_COLUMNS, LEAST_ROWS = 16, 6
 """Of a picture worth looking at."""
 
@@ -22,7 +25,7 @@ def render(dashboard: Dashboard, columns: int, rows: int, *, unicode: bool, colo
     body, bottom = choose(readings(dashboard, columns, unicode), footer(dashboard, columns, unicode), rows)
     spare = rows - len(body) - len(bottom)
     middle = [*body, *[[Span("")]] * spare]
-    if dashboard.seen.odom is not None or dashboard.seen.status is not None:
+    if not dashboard.keys and (dashboard.seen.odom is not None or dashboard.seen.status is not None):
         middle = with_picture(dashboard, middle, len(body), columns, unicode)
     return [paint(fit(spans, columns), color) for spans in [*middle, *bottom]]
 
@@ -42,14 +45,23 @@ def with_picture(
     d: Dashboard, middle: list[list[Span]], used: int, columns: int, unicode: bool
 ) -> list[list[Span]]:
     """Return the lines with the robot from above beside or below them, where there is room."""
-    beside = columns >= BESIDE
-    wide = [index for index, spans in enumerate(middle) if sum(width(span.text) for span in spans) > LEFT]
+    beside, left = columns >= BESIDE, 44 if columns >= ROOMY else 36
+    wide = [index for index, spans in enumerate(middle) if sum(width(span.text) for span in spans) > left]
     top = max(3, *(index + 1 for index in wide), 0) if beside else used + 1
     rows = len(middle) - top - (1 if beside else 0)
-    across = columns - LEFT - 2 if beside else columns
+    across = columns - left - 2 if beside else columns
     if rows < LEAST_ROWS or across < LEAST_COLUMNS:
         return middle
-    picture = draw(d.seen.odom, d.trail, steering_angle(d), d.seen.vehicle, across, rows, unicode)
-    margin = LEFT + 2 if beside else 0
-    shown = [[*pad(middle[top + i], margin), Span(line)] for i, line in enumerate(picture)]
+    picture = draw(d.seen.odom, d.trail, steering_angle(d), d.seen.vehicle, across, rows, unicode, d.floor)
+    margin = left + 2 if beside else 0
+    shown = [[*pad(middle[top + i], margin), *spans] for i, spans in enumerate(picture)]
     return [*middle[:top], *shown, *middle[top + rows :]]
+
+
+def steering_angle(d: Dashboard) -> float:
+    """Return where the actuator points the front wheels, in rad, positive to the left."""
+    pulses = d.seen.status.pulses if d.seen.status else []
+    fraction = next((pulse.fraction for pulse in pulses if pulse.name == "steering"), 0.0)
+    if d.seen.vehicle is None or not isfinite(fraction):
+        return 0.0
+    return max(-1.0, min(1.0, fraction)) * d.seen.vehicle.max_steering_angle

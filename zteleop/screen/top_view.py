@@ -1,119 +1,82 @@
-"""The robot from above: where it is, where it was, and where its wheels point.
+"""The robot from above: where it is, where it was, what lies on its floor, and where its wheels point.
 
-On the screen x is up and y is left (REP-103). The robot is drawn larger than life: its wheels are to be seen.
+On the screen x is up and y is left (REP-103). A robot too small to see is drawn larger, and the scale says
+so.
 """
 
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
-from math import atan2, cos, hypot, isfinite, pi, sin
+from math import atan2, ceil, hypot, isfinite, pi
+from typing import NamedTuple
 
 from zteleop.messages import Odometry, Vehicle
+from zteleop.screen.canvas import Canvas, Dot
+from zteleop.screen.chassis import draw_chassis, length_of
+from zteleop.terminal.cells import Span, cut, fit
 
-Dot = tuple[float, float]
-SPAN = 4.0
-"""m that the shorter side of the picture shows."""
+SPANS = (3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0, 48.0)
+"""m that the shorter side of the picture shows: the least that holds the whole trail."""
+MARGIN = 0.4
+"""m around the trail"""
+SNAP = 4
+"""Parts of a picture's side by which it jumps, so that the robot is seen to move."""
+VISIBLE = 20.0
+"""Dots below which a robot's wheels are not seen."""
 JUMP = 0.5
 """m; points of the trail farther apart are not joined: the robot was put somewhere else."""
 FARTHEST = 1e6
 """m; beyond this a pose is nonsense."""
-BRAILLE = ((0x01, 0x08), (0x02, 0x10), (0x04, 0x20), (0x40, 0x80))
-LENGTH, ALONE = 0.4, 0.75
-"""Of the robot, on a map or by itself, as a part of the shorter side; all below are fractions of it."""
-CAR = ((-0.5, 0.14), (0.25, 0.14), (0.5, 0.04))
-TANK = ((-0.4, 0.2), (0.25, 0.2), (0.5, 0.02))
-"""Half of the body, which is as wide on the other side: (ahead, aside) from tail to nose."""
-AXLES = (-0.33, 0.3)
-TRACK = 0.33
-WHEEL = (0.16, 0.055)
-"""Half the length and half the breadth."""
-ROOM = (0.6, 0.48)
-"""Half of what is kept clear around the robot."""
 
 
-class Canvas:
-    """Dots, two by four to a cell; without braille every line leaves the character nearest its slope."""
+class Mark(NamedTuple):
+    """A line on the floor, in m of the robot's odometry."""
 
-    def __init__(self, columns: int, rows: int, unicode: bool) -> None:
-        self.columns = columns
-        self.rows = rows
-        self.unicode = unicode
-        self._bits = [[0] * columns for _ in range(rows)]
-        self._marks = [[" "] * columns for _ in range(rows)]
+    points: Sequence[Dot]
+    style: str = ""
 
-    def dot(self, x: float, y: float, mark: str = ".") -> None:
-        """Set one dot, x to the right and y down; outside nothing happens."""
-        column, row = int(x // 2), int(y // 4)
-        if 0 <= column < self.columns and 0 <= row < self.rows:
-            self._bits[row][column] |= BRAILLE[int(y) % 4][int(x) % 2]
-            self._marks[row][column] = mark
 
-    def line(self, start: Dot, end: Dot, mark: str = "") -> None:
-        """Set the dots from one place to another."""
-        (x, y), (right, down) = start, (end[0] - start[0], end[1] - start[1])
-        steps = max(1, round(max(abs(right), abs(down))))
-        for step in range(steps + 1):
-            part = step / steps
-            self.dot(x + part * right, y + part * down, mark or slope(right, down))
+class Window(NamedTuple):
+    """What part of the floor is seen, and how large."""
 
-    def polygon(self, corners: Sequence[Dot], mark: str) -> None:
-        """Set the dots inside a convex outline; the mark " " clears them."""
-        heights = [y for _, y in corners]
-        edges = [*pairwise(corners), (corners[-1], corners[0])]
-        for row in range(round(min(heights)), round(max(heights))):
-            y = row + 0.5
-            across = [
-                x0 + (x1 - x0) * (y - y0) / (y1 - y0)
-                for (x0, y0), (x1, y1) in edges
-                if (y0 <= y) != (y1 <= y)
-            ]
-            for x in range(round(min(across)), round(max(across))) if across else ():
-                if mark == " ":
-                    self._clear(x, row)
-                else:
-                    self.dot(x, row, mark)
+    middle: Dot
+    dots_per_m: float
+    across: int
+    down: int
 
-    def _clear(self, x: int, y: int) -> None:
-        column, row = x // 2, y // 4
-        if 0 <= column < self.columns and 0 <= row < self.rows:
-            self._bits[row][column] &= ~BRAILLE[y % 4][x % 2]
-            self._marks[row][column] = " "
-
-    def lines(self) -> list[str]:
-        """Return the picture, every line of full width."""
-        if not self.unicode:
-            return ["".join(row) for row in self._marks]
-        return ["".join(chr(0x2800 + bits) if bits else " " for bits in row) for row in self._bits]
+    def place(self, at: Dot) -> Dot:
+        """Return the dot of a place in m."""
+        (x, y), (middle_x, middle_y), scale = at, self.middle, self.dots_per_m
+        return self.across / 2 - (y - middle_y) * scale, self.down / 2 - (x - middle_x) * scale
 
 
 def draw(
     odom: Odometry | None,
-    trail: Sequence[tuple[float, float]],
+    trail: Sequence[Dot],
     steering_angle: float,
     vehicle: Vehicle | None,
     columns: int,
     rows: int,
     unicode: bool,
-) -> list[str]:
+    floor: Sequence[Mark] = (),
+) -> list[list[Span]]:
     """Return a picture of so many rows and columns; without odometry the robot alone, pointing up."""
     canvas = Canvas(columns, rows, unicode)
-    across, down = 2 * columns, 4 * rows
-    scale = min(across, down) / SPAN
     known = pose(odom)
-    steering_angle = steering_angle if abs(steering_angle) < pi else 0.0
     x, y, heading = known or (0.0, 0.0, 0.0)
-    middle_x, middle_y = window(x, down / scale), window(y, across / scale)
-
-    def place(x: float, y: float) -> Dot:
-        return across / 2 - (y - middle_y) * scale, down / 2 - (x - middle_x) * scale
-
-    here = place(x, y)
+    seen = [point for point in trail if hypot(*point) < FARTHEST] if known else []
+    window = choose_window([(x, y), *seen], 2 * columns, 4 * rows)
     if known:
-        draw_trail(canvas, [place(*point) for point in trail], JUMP * scale)
-    draw_robot(
-        canvas, here, heading, steering_angle, vehicle, min(across, down) * (LENGTH if known else ALONE)
-    )
+        for mark in floor:
+            draw_path(canvas, [window.place(point) for point in mark.points], float("inf"), mark.style)
+        draw_path(canvas, [window.place(point) for point in seen], JUMP * window.dots_per_m, "green")
+    true_length = length_of(vehicle) * window.dots_per_m
+    larger = max(1, ceil(VISIBLE / true_length))
+    steering_angle = steering_angle if abs(steering_angle) < pi else 0.0
+    draw_chassis(canvas, window.place((x, y)), heading, steering_angle, vehicle, larger * true_length)
     picture = canvas.lines()
-    return [*picture[:-1], scale_bar(scale, columns, unicode, picture[-1])] if known else picture
+    if not known:
+        return picture
+    return [*picture[:-1], scale_bar(window.dots_per_m, larger, columns, unicode, picture[-1])]
 
 
 def pose(odom: Odometry | None) -> tuple[float, float, float] | None:
@@ -126,67 +89,43 @@ def pose(odom: Odometry | None) -> tuple[float, float, float] | None:
     return (at.x, at.y, heading) if near else None
 
 
-def window(position: float, span: float) -> float:
-    """Return the middle of the view: it jumps by half a picture, so that the robot is seen to move."""
-    return round(position / (span / 2)) * (span / 2)
+def choose_window(points: Sequence[Dot], across: int, down: int) -> Window:
+    """Return the closest look at all these places; where none holds them, one at the first."""
+    shorter, xy = min(across, down), tuple(zip(*points, strict=True))
+    for span in SPANS:
+        scale = shorter / span
+        ahead, aside = (hold(values, dots / scale) for values, dots in zip(xy, (down, across), strict=True))
+        if ahead is not None and aside is not None:
+            return Window((ahead, aside), scale, across, down)
+    scale = shorter / SPANS[0]
+    x, y = points[0]
+    return Window((snap(x, down / scale), snap(y, across / scale)), scale, across, down)
 
 
-def draw_trail(canvas: Canvas, dots: Iterable[Dot], jump: float) -> None:
+def hold(values: Sequence[float], side: float) -> float | None:
+    """Return the middle of a side of a view that holds all of one coordinate; None when none does."""
+    least, most = min(values), max(values)
+    middle = snap((least + most) / 2, side)
+    return middle if max(most - middle, middle - least) + MARGIN <= side / 2 else None
+
+
+def snap(position: float, side: float) -> float:
+    """Return the middle of a view: it jumps by a part of its side."""
+    return round(position / (side / SNAP)) * (side / SNAP)
+
+
+def draw_path(canvas: Canvas, dots: Iterable[Dot], jump: float, style: str) -> None:
     for start, end in pairwise(dots):
         if hypot(end[0] - start[0], end[1] - start[1]) <= jump:
-            canvas.line(start, end, ".")
+            canvas.line(start, end, ".", style)
 
 
-def draw_robot(
-    canvas: Canvas, here: Dot, heading: float, steering: float, vehicle: Vehicle | None, length: float
-) -> None:
-    """Draw the body, and four wheels of which the front ones steer, or two."""
-    tank = vehicle is not None and not vehicle.steers
-    middle = (round(here[0]), round(here[1]))
-
-    def place(ahead: float, left: float) -> Dot:
-        return (
-            middle[0] - length * (ahead * sin(heading) + left * cos(heading)),
-            middle[1] - length * (ahead * cos(heading) - left * sin(heading)),
-        )
-
-    def box(at: Dot, half: Dot, angle: float, mark: str) -> None:
-        c, s = cos(angle), sin(angle)
-        turned = [(u * c - v * s, u * s + v * c) for u, v in pairs(half)]
-        canvas.polygon([place(at[0] + u, at[1] + v) for u, v in turned], mark)
-
-    def wheel(axle: float, left: float, angle: float) -> None:
-        half = (WHEEL[0], max(WHEEL[1], 0.8 / length))
-        box((axle, left), half, angle, slope(-sin(heading + angle), -cos(heading + angle)))
-
-    box((0.0, 0.0), ROOM, 0.0, " ")
-    outline = TANK if tank else CAR
-    for axle in () if tank else AXLES:
-        canvas.line(place(axle, TRACK), place(axle, -TRACK))
-    canvas.polygon([place(*p) for p in [*outline, *((u, -v) for u, v in reversed(outline))]], "#")
-    canvas.polygon([place(*p) for p in [*outline[-2:], *((u, -v) for u, v in reversed(outline[-2:]))]], "o")
-    for axle in (0.0,) if tank else AXLES:
-        for left in (TRACK, -TRACK):
-            wheel(axle, left, steering if axle > 0 else 0.0)
-
-
-def pairs(half: Dot) -> tuple[Dot, Dot, Dot, Dot]:
-    """Return the corners of a box, in order."""
-    u, v = half
-    return (u, v), (u, -v), (-u, -v), (-u, v)
-
-
-def slope(right: float, down: float) -> str:
-    """Return the character that looks most like a line, where a cell is twice as high as wide."""
-    if abs(right) < abs(down) / 4:
-        return "|"
-    if abs(down) < abs(right) / 2:
-        return "-"
-    return "\\" if right * down > 0 else "/"
-
-
-def scale_bar(scale: float, columns: int, unicode: bool, row: str) -> str:
-    """Return the last row with the length of a metre on it."""
+def scale_bar(scale: float, larger: int, columns: int, unicode: bool, row: list[Span]) -> list[Span]:
+    """Return the last row with the length of a metre on it, and how much too large the robot is drawn."""
     cells = max(0, round(scale / 2) - 2)
     bar = f"├{'─' * cells}┤ 1 m " if unicode else f"|{'-' * cells}| 1 m "
-    return bar + row[len(bar) :] if len(bar) <= columns else row
+    bar += f" robot {larger}x " if larger > 1 else ""
+    if len(bar) > columns:
+        return row
+    text = "".join(span.text for span in row)
+    return fit([Span(bar, "dim"), Span(text[len(cut(bar, columns)) :])], columns)

@@ -18,6 +18,8 @@ class View(NamedTuple):
     """None when no actuator is heard"""
     ours: bool = False
     """the robot obeys this device"""
+    refused: str = ""
+    """Why it does not, in the robot's words; empty while it does, or nobody knows"""
     odom: Odometry | None = None
     note: str = ""
     alarm: bool = False

@@ -5,7 +5,10 @@ from unicodedata import category, east_asian_width
 
 LONGEST = 1000
 """Characters of one text looked at; no screen is wider."""
-STYLES = {"bold": "1", "dim": "2", "green": "32", "yellow": "33", "red": "31"}
+STYLES = {
+    **{"bold": "1", "dim": "2", "red": "31", "green": "32", "yellow": "33", "cyan": "36"},
+    "alarm": "1;97;41",  # bold and white on red
+}
 
 
 class Span(NamedTuple):

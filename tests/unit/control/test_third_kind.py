@@ -84,7 +84,7 @@ def test_it_is_told_and_shown(settings: DriveSettings) -> None:
     said = status(robot.drive, step, robot.chip(step), robot.now)
     board = Dashboard("trike", "hold", Speeds(), View(vehicle=vehicle, status=said))
     page = "\n".join(render(board, 80, 24, unicode=False, color=False))
-    assert "applied" in page
+    assert "allowed" in page
     assert "+1.00 m/s" in page
     assert "full lock" in page, "who steers has no yaw rate of his own"
 

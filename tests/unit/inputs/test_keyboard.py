@@ -319,7 +319,7 @@ def test_without_a_robot_it_stays_usable():
 
 def test_another_calibration_is_neutral_and_needs_a_fresh_press(step, car):
     step.type(UP)
-    car.channels[1] = Channel("throttle", 0, 1.0, 2.0, 3.0, 340, 370, 400)
+    car.channels[1] = Channel("throttle", 0, 1.0, 2.0, 3.0, 340, 370, 400, 0)
     step.keyboard.fit(car)
     step.type(UP, after=0.1)
     assert step.stick() == Stick()
@@ -342,7 +342,7 @@ CHUNKS = st.one_of(
 @given(st.sampled_from(["step", "hold"]), st.lists(st.tuples(CHUNKS, st.floats(0, 6))), st.integers(-1, 60))
 def test_any_keys_give_a_stick_in_range(drive, chunks, reset_at):
     channels = [
-        Channel(name, i, 1.0, 2.0, 3.0, 290, 375, 460) for i, name in enumerate(("steering", "throttle"))
+        Channel(name, i, 1.0, 2.0, 3.0, 290, 375, 460, 0) for i, name in enumerate(("steering", "throttle"))
     ]
     bench = Typist(drive, Vehicle("ackermann", channels, 1.0, 2.0, 0.25, 0.4, 5.0, 4.08, True))
     for index, (data, after) in enumerate(chunks):
@@ -356,3 +356,17 @@ def test_any_keys_give_a_stick_in_range(drive, chunks, reset_at):
             bench.keyboard.reset(bench.now)
             assert bench.stick() == Stick()
     assert bench.stick(after=5.01) == Stick()
+
+
+@pytest.mark.parametrize("drive", ["step", "hold"])
+def test_a_question_mark_shows_what_each_key_does_and_hides_it_again(car, drive):
+    typist = Typist(drive, car, keys={"h": "forward"})
+    assert typist.keyboard.help == []
+    typist.type(b"?")
+    shown = dict(typist.keyboard.help)
+    assert shown["up w h"] == "forward" + (", a step each press" if drive == "step" else ", while it is held")
+    assert ("u" in shown) == (drive == "hold")
+    assert shown["backspace"].startswith("STOP")
+    assert typist.ticks() is None
+    typist.type(b"?")
+    assert typist.keyboard.help == []

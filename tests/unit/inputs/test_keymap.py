@@ -2,7 +2,7 @@ import pytest
 
 from zteleop.errors import ConfigError
 from zteleop.inputs.keyboard import ACTIONS
-from zteleop.inputs.keymap import DIRECTIONS, KEYS, bindings
+from zteleop.inputs.keymap import DIRECTIONS, DOES, KEYS, bindings, describe
 
 
 def test_every_key_has_an_action_there_is():
@@ -22,3 +22,8 @@ def test_keys_are_added_to_the_usual_ones():
 def test_an_unknown_action_is_refused_with_those_there_are():
     with pytest.raises(ConfigError, match=r"key 'z' is bound to 'fly'; expected one of forward, stop"):
         bindings({"z": "fly"}, {"forward", "stop"})
+
+
+def test_every_action_is_told_in_words():
+    assert {*DOES} == {*ACTIONS, *DIRECTIONS}
+    assert sorted(" ".join(keys for keys, _ in describe(KEYS)).split()) == sorted(KEYS)

@@ -41,7 +41,7 @@ def test_as_many_steps_back_lead_to_neutral_exactly(car):
 
 
 def test_left_goes_to_the_left_end_whichever_number_is_larger():
-    lever = Lever(Channel("steering", 1, 2000.0, 1500.0, 1000.0, 460, 375, 290), 15)
+    lever = Lever(Channel("steering", 1, 2000.0, 1500.0, 1000.0, 460, 375, 290, 0), 15)
     lever.press(1)
     assert (lever.ticks, lever.fraction > 0) == (360, True)
     lever.press(-1)
@@ -50,7 +50,7 @@ def test_left_goes_to_the_left_end_whichever_number_is_larger():
 
 
 def test_an_axis_without_a_side_does_not_move_there():
-    lever = Lever(Channel("throttle", 0, 1500.0, 1500.0, 2000.0, 370, 370, 400), 1)
+    lever = Lever(Channel("throttle", 0, 1500.0, 1500.0, 2000.0, 370, 370, 400, 0), 1)
     lever.press(-1)
     assert (lever.ticks, lever.fraction) == (370, 0.0)
 
@@ -80,7 +80,7 @@ def test_another_calibration_is_neutral_and_the_same_one_changes_nothing(car):
     levers.press("steering", 1)
     assert not levers.fit(car)
     assert levers.stick().deadman
-    car.channels[0] = Channel("steering", 1, 1000.0, 1500.0, 2000.0, 300, 375, 460)
+    car.channels[0] = Channel("steering", 1, 1000.0, 1500.0, 2000.0, 300, 375, 460, 0)
     assert levers.fit(car)
     assert not levers.stick().deadman
 
@@ -108,11 +108,13 @@ def test_settings_are_checked(bad):
     st.tuples(*[st.integers(0, 4095)] * 3).map(sorted),
     st.booleans(),
     st.integers(1, 400),
+    st.integers(0, 400),
 )
-def test_whatever_is_pressed_ticks_stay_within_and_come_back_exactly(presses, ends, swapped, step):
+def test_whatever_is_pressed_ticks_stay_within_and_come_back_exactly(presses, ends, swapped, step, dead):
     low, neutral, high = reversed(ends) if swapped else ends
     channels = [
-        Channel(name, i, 1.0, 2.0, 3.0, low, neutral, high) for i, name in enumerate(("steering", "throttle"))
+        Channel(name, i, 1.0, 2.0, 3.0, low, neutral, high, dead)
+        for i, name in enumerate(("steering", "throttle"))
     ]
     vehicle = Vehicle("ackermann", channels, 1.0, 1.0, 0.2, 0.4, 5.0, 4.08, True)
     levers = fitted(vehicle, Steps(step, step))
@@ -128,11 +130,23 @@ def test_whatever_is_pressed_ticks_stay_within_and_come_back_exactly(presses, en
 
 
 @given(
-    st.integers(0, 4095), st.integers(0, 4095), st.integers(0, 4095), st.integers(1, 50), st.integers(-90, 90)
+    st.tuples(*[st.integers(0, 4095)] * 3).map(sorted),
+    st.integers(1, 50),
+    st.integers(-90, 90),
+    st.integers(0, 90),
 )
-def test_counting_steps_undoes_pressing_them(low, neutral, high, step, presses):
-    low, neutral, high = sorted((low, neutral, high))
-    lever = Lever(Channel("steering", 0, 1.0, 2.0, 3.0, low, neutral, high), step)
+def test_counting_steps_undoes_pressing_them(ends, step, presses, dead):
+    lever = Lever(Channel("steering", 0, 1.0, 2.0, 3.0, *ends, dead), step)
     for _ in range(abs(presses)):
         lever.press(1 if presses > 0 else -1)
     assert lever.count(lever.ticks) == lever.steps
+
+
+def test_the_first_step_goes_beyond_the_dead_zone_and_the_next_is_a_step_more():
+    lever = Lever(Channel("throttle", 0, 1.0, 2.0, 3.0, 355, 370, 400, 3), 1)
+    seen = []
+    for sign in (1, 1, -1, -1, -1, -1):
+        lever.press(sign)
+        seen.append(lever.ticks)
+    assert seen == [374, 375, 374, 370, 366, 365]
+    assert (lever.most(1), lever.most(-1)) == (27, 12)

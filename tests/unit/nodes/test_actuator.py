@@ -482,7 +482,7 @@ def test_the_journal_hears_every_command_with_its_verdict(robot: Robot) -> None:
     assert acted == now == robot.clock.time
     assert refused[1] == 1
     assert "before the robot's last start" in refused[4]
-    assert ("state", {"state": "driving", "why": "keyboard drives"}) in robot.journal.events
+    assert ("state", {"state": "driving", "why": "keyboard 0007 drives"}) in robot.journal.events
 
 
 def test_it_steps_and_tells_on_a_clock(robot: Robot) -> None:
@@ -498,7 +498,7 @@ def test_a_command_is_obeyed_on_arrival_even_right_after_a_step_of_the_clock(rob
     robot.say(PUSH)
     assert robot.chip.writes[-1][1] == pytest.approx(390 * 4.08)
     assert robot.node.said["drive_status"].messages[-1].state == "driving"
-    assert robot.node.infos[-1] == "driving: keyboard drives"
+    assert robot.node.infos[-1] == "driving: keyboard 0007 drives"
 
 
 def test_a_few_commands_in_a_row_are_answered_at_once_and_then_share_a_step(robot: Robot) -> None:

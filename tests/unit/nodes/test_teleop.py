@@ -9,6 +9,7 @@ from zteleop.control.stick import Speeds, Stick
 from zteleop.errors import BusError, ConfigError
 from zteleop.inputs import Wish
 from zteleop.messages import DriveStatus, Log, Odometry, Pwm, Stop, Twist, Vehicle
+from zteleop.nodes import sight
 from zteleop.nodes.stop_request import ACKNOWLEDGED_WITHIN, REPEAT
 from zteleop.nodes.teleop import NEWS, PERIOD, SHOW_AFTER, Teleop
 from zteleop.screen.view import View
@@ -457,11 +458,15 @@ def test_a_stop_typed_while_the_process_stood_still_counts_and_a_release_does_no
         assert desk.device.wish is None
 
 
-def test_its_own_refusal_is_shown_unless_the_robots_sentence_says_it(desk: Desk) -> None:
-    desk.hear_state("idle")
+def test_its_own_refusal_is_shown(desk: Desk) -> None:
     desk.twists.refused = "it is too old (deaf)"
     desk.tick(2)
-    assert desk.views[-1].note == "it is too old (deaf)"
-    desk.twists.refused = "it is idle"
+    assert (desk.views[-1].refused, desk.views[-1].note) == ("it is too old (deaf)", "")
+
+
+def test_a_line_of_the_log_is_shown_while_it_is_news(desk: Desk) -> None:
+    desk.hear_log("obeys archangel")
     desk.tick(2)
+    assert desk.views[-1].note == "actuator: obeys archangel"
+    desk.tick(int(sight.NEWS / PERIOD) + 2)
     assert desk.views[-1].note == ""

@@ -18,12 +18,12 @@ def shown(board: Dashboard, columns: int = 80, rows: int = 24) -> list[str]:
 
 
 def board(car: Vehicle, drive: str = "step", why: str = "obeying keyboard", **more: object) -> Dashboard:
-    pulses = [Pulse("steering", 1, 0.5, 1500.0, 330)]
+    pulses = [Pulse("steering", 1, 0.0, 1500.0, 375), Pulse("throttle", 0, 0.0, 1500.0, 370)]
     rest = Twist.zero()
     status = DriveStatus(
         "driving", why, "keyboard", "3fa2", rest, rest, pulses, 1, 0.0, [], "", "", 0, 0, 3.0, 0.06, "", 0
     )
-    seen = {"command": Pwm(375, 370), "status": status, "odom": Odometry.zero()} | more
+    seen = {"command": Pwm(375, 370), "ours": True, "status": status, "odom": Odometry.zero()} | more
     return dashboard(drive, car, robot="archangel", **seen)
 
 
@@ -52,7 +52,7 @@ def test_it_stands_below_on_a_narrow_and_high_one_and_nowhere_on_a_small_one(car
 def test_the_keys_and_the_note_are_at_the_bottom(car):
     lines = shown(board(car, note="connected to archangel"))
     assert len(lines) == 24
-    assert "q quit" in lines[-2]
+    assert lines[-2] == "backspace STOP   arrows drive   space throttle off   x neutral   q quit   ? keys"
     assert lines[-1] == "connected to archangel"
 
 
@@ -73,7 +73,7 @@ def test_stopped_is_said_in_red_with_its_reason_and_the_stop_key_is_bold(car):
     page.seen.status.state = "stopped"
     for columns in (80, 40):
         lines = render(page, columns, 24, unicode=True, color=True)
-        assert any("\x1b[31m● stopped\x1b[0m" in line for line in lines[:2])
+        assert any(line.startswith("\x1b[1;97;41m") and "● stopped" in line for line in lines[:2])
         assert "stopped by ann@desk: a cat" in lines
         assert any("\x1b[1mbackspace\x1b[0m\x1b[1m STOP\x1b[0m" in line for line in lines)
     assert shown(page)[3] == "Currently outputting:[Steering PWM, Throttle PWM] = [375, 370]"
@@ -86,8 +86,8 @@ ALARM = "archangel has not acknowledged the stop within 2 s: cut its power, or r
 def test_an_alarm_is_whole_and_red_in_any_window(car, columns, rows):
     page = board(car, note=ALARM, alarm=True)
     assert ALARM in " ".join(shown(page, columns, rows))
-    reds = [line for line in render(page, columns, rows, unicode=True, color=True) if "\x1b[31m" in line]
-    assert ALARM in " ".join(re.sub(r"\x1b\[\d+m", "", line) for line in reds)
+    reds = [line for line in render(page, columns, rows, unicode=True, color=True) if "\x1b[1;97;41m" in line]
+    assert ALARM in " ".join(re.sub(r"\x1b\[[\d;]+m", "", line) for line in reds)
 
 
 def test_on_a_single_line_an_alarm_stands_before_what_is_driven(car):
@@ -96,7 +96,7 @@ def test_on_a_single_line_an_alarm_stands_before_what_is_driven(car):
 
 def test_a_small_window_keeps_what_matters_most(car):
     lines = shown(board(car), 20, 3)
-    assert lines == ["● driving", "obeying keyboard", "PWM       [375, 370]"]
+    assert lines == ["● driving", "obeying keyboard", "out      [375, 370]"]
     assert shown(board(car), 40, 1) == ["● driving  [375, 370]"]
 
 
@@ -106,7 +106,7 @@ def test_text_from_the_bus_cannot_write_on_the_screen(car):
         page = board(car, why=nasty, note=nasty)._replace(robot=nasty)
         page.seen.status.source = page.seen.status.operator = page.seen.status.pulses[0].name = nasty
         for line in render(page, columns, 24, unicode=True, color=True):
-            assert re.sub(r"\x1b\[\d+m", "", line).isprintable()
+            assert re.sub(r"\x1b\[[\d;]+m", "", line).isprintable()
 
 
 def test_colour_only_on_request(car):
@@ -143,7 +143,7 @@ ANY = st.floats()
 def boards(draw) -> Dashboard:
     ticks = st.integers(-(2**15), 2**15 - 1)
     channels = [
-        Channel(name, 0, 1.0, 2.0, 3.0, draw(ticks), draw(ticks), draw(ticks))
+        Channel(name, 0, 1.0, 2.0, 3.0, *(draw(ticks) for _ in range(4)))
         for name in draw(st.sampled_from([(), ("steering", "throttle"), ("left", "right")]))
     ]
     kind = draw(st.sampled_from(["ackermann", "differential"]))
@@ -183,7 +183,7 @@ def boards(draw) -> Dashboard:
 def test_whatever_is_shown_fits(page, columns, rows, unicode, color):
     lines = render(page, columns, rows, unicode=unicode, color=color)
     assert len(lines) <= rows
-    plain = [re.sub(r"\x1b\[\d+m", "", line) for line in lines]
+    plain = [re.sub(r"\x1b\[[\d;]+m", "", line) for line in lines]
     assert all(width(line) <= columns for line in plain)
     assert all(line.isprintable() for line in plain)
     assert unicode or all(line.isascii() for line in plain)

@@ -1,0 +1,91 @@
+"""From key to wheel in four lines: what is asked for, what is allowed, what the chip puts out, what moves."""
+
+from math import degrees
+
+from zteleop.messages import Twist
+from zteleop.screen.dashboard import Dashboard, Line, channel, labelled, line
+from zteleop.screen.top_view import pose
+from zteleop.terminal.cells import printable
+
+OUTPUT = "Currently outputting:[Steering PWM, Throttle PWM] = "
+SHORT = 34
+"""Columns below which numbers stand without units and names."""
+
+
+def value_lines(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
+    """Return the way of a command, from the operator to the ground."""
+    allowed = d.seen.status.applied if d.seen.status else None
+    lines = [
+        asked_line(d, columns),
+        labelled(5, "allowed", twist_text(allowed, columns), columns),
+        labelled(1, "out", out_text(d, columns, unicode), columns),
+    ]
+    if d.seen.odom is not None:
+        lines.append(labelled(7, "moving", twist_text(d.seen.odom.twist.twist, columns), columns))
+    if found := pose(d.seen.odom):
+        x, y, heading = found
+        degree = "°" if unicode else " deg"
+        lines.append(line(8, f"{'place':<10}x {x:.2f}  y {y:.2f} m  {degrees(heading):.0f}{degree}"))
+    return lines
+
+
+def asked_line(d: Dashboard, columns: int) -> Line:
+    """Return what the operator asks for; dim where it is rest, or nobody obeys."""
+    text = asked_text(d, columns)
+    if d.asks and not d.obeyed:
+        text += "  not obeyed" if columns >= SHORT else " no"
+    return labelled(2, "asked", text, columns, "" if d.asks and d.obeyed else "dim")
+
+
+def asked_text(d: Dashboard, columns: int) -> str:
+    if d.drive == "hold":
+        return twist_text(d.seen.twist or Twist.planar(), columns)
+    if d.seen.pwm is not None:
+        return f"[{d.seen.pwm.steering_ticks}, {d.seen.pwm.throttle_ticks}]"
+    found = [channel(d.seen.vehicle, axis) for axis in ("steering", "throttle")]
+    return f"[{', '.join(str(c.neutral_ticks) if c else '-' for c in found)}]"
+
+
+def out_text(d: Dashboard, columns: int, unicode: bool) -> str:
+    """Return what the chip took last; no pulse where its outputs are cut."""
+    status = d.seen.status
+    if status is None:
+        return "-"
+    if status.confirmed == "cut":
+        return "no pulse: its outputs are cut" if columns >= 40 else "no pulse"
+    if d.drive == "step" and columns < SHORT:
+        return output_ticks(d)
+    if columns < SHORT:
+        return " ".join(str(pulse.duty_ticks) for pulse in status.pulses[:4])
+    return ", ".join(f"{printable(p.name, unicode)} {p.duty_ticks}" for p in status.pulses[:4]) or "-"
+
+
+def output_line(d: Dashboard) -> Line:
+    """Return the line of the Donkeycar nodes, with what the chip took last."""
+    return line(1, OUTPUT + output_ticks(d))
+
+
+def output_ticks(d: Dashboard) -> str:
+    """Return [steering, throttle] as the chip puts them out."""
+    pulses = d.seen.status.pulses if d.seen.status and d.seen.status.confirmed != "cut" else []
+    ticks = {pulse.name: str(pulse.duty_ticks) for pulse in pulses}
+    return f"[{ticks.get('steering', '-')}, {ticks.get('throttle', '-')}]"
+
+
+def speeds_line(d: Dashboard, columns: int) -> Line:
+    """Return what a full stick means, and the keys that change it."""
+    turns = d.seen.vehicle is None or not d.seen.vehicle.steers
+    if columns < SHORT:
+        turn = f"{d.speeds.turn:5.2f}" if turns else "lock"
+        return labelled(4, "speeds", f"{d.speeds.forward:5.2f} {turn}", columns)
+    turn = f"{d.speeds.turn:.2f} rad/s i/k" if turns else "full lock"
+    return labelled(4, "full", f"{d.speeds.forward:.2f} m/s u/j  {turn}", columns)
+
+
+def twist_text(twist: Twist | None, columns: int) -> str:
+    """Return how fast it goes forward and turns."""
+    if twist is None:
+        return "-"
+    if columns < SHORT:
+        return f"{twist.linear.x:+.2f} {twist.angular.z:+.2f}"
+    return f"{twist.linear.x:+.2f} m/s  {twist.angular.z:+.2f} rad/s"
