@@ -4,14 +4,13 @@ The numbers are counts of 4096 at 60 Hz; channel 0 is the throttle, channel 1 th
 """
 
 import time
-from contextlib import suppress
 from itertools import cycle
 
 from zteleop import Node, PWMController
 
 LEFT, RIGHT, SLOWLY = 330, 420, 380
 
-with suppress(KeyboardInterrupt), Node("donkeycar", robot="archangel") as node:
+with Node("donkeycar", robot="archangel") as node:
     throttle, steering = PWMController(0, node=node), PWMController(1, node=node)
     for pulse in cycle([LEFT] * 20 + [RIGHT] * 20):
         throttle.set_pwm(SLOWLY)

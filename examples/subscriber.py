@@ -1,10 +1,8 @@
 """Print where a robot is, until Ctrl-C."""
 
-from contextlib import suppress
-
 from zteleop import Node, Odometry
 
-with suppress(KeyboardInterrupt), Node("subscriber", robot="archangel") as node:
+with Node("subscriber", robot="archangel") as node:
 
     @node.on("odom", Odometry)
     def show(odometry: Odometry) -> None:

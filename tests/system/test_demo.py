@@ -99,6 +99,33 @@ def test_a_key_ends_all_of_it(screen: Terminal, key: str) -> None:
     screen.is_as_found()
 
 
+def after_the_screen(demo: Terminal) -> str:
+    """Return the last words of a demo, on the terminal that it gave back."""
+    return "drove" + demo.output.decode().replace("\r", "").rpartition("drove")[2]
+
+
+def test_the_first_press_moves_the_car_and_the_end_says_what_was_driven_and_what_comes_next(
+    rig: Rig, screen: Terminal
+) -> None:
+    screen.type(UP)
+    screen.shows("[375, 374]", "place     x 0.1")
+    screen.type("q")
+    assert screen.ends() == 0
+    last = after_the_screen(screen)
+    assert re.match(r"drove 0\.\d m, 0\.\d\d m/s at most\ntry next:\n", last)
+    told = re.findall(r"^  (zteleop [-\w ]+?)  +\w", last, re.MULTILINE)
+    assert told == ["zteleop demo --drive hold", "zteleop keyboard --help", "zteleop doctor"]
+    again = rig.terminal(*told[0].split()[1:])
+    again.shows("hold drive", "idle, nobody operates")
+    again.type("w")
+    again.shows("moving    +0.")
+    again.type("q")
+    assert again.ends() == 0
+    assert "zteleop demo --drive step" in after_the_screen(again)
+    for command in told[1:]:
+        assert rig.result(*command.split()[1:]).stdout
+
+
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
 def test_a_demo_that_is_ended_from_outside_leaves_no_process(screen: Terminal, number: int) -> None:
     robot = robot_of(screen)

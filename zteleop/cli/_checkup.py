@@ -21,6 +21,8 @@ from zteleop.cli._company import who_is_here
 from zteleop.config import Config
 from zteleop.drivers.i2c import failure
 from zteleop.errors import ZteleopError
+from zteleop.machine import realtime
+from zteleop.processes import PROGRAMS
 from zteleop.terminal.capabilities import speaks_unicode, wants_color
 
 BUILT = 2024
@@ -86,6 +88,14 @@ def i2c(patient: Patient) -> Finding:
 def _real(patient: Patient) -> bool:
     """Say whether a real chip is to be driven."""
     return patient.settings.driver == "pca9685"
+
+
+def privileges(patient: Patient) -> Finding:
+    watchdog = PROGRAMS["watchdog"]
+    if missing := realtime.try_out(watchdog.priority, watchdog.oom_score):
+        words = f"no {', '.join(missing)}: on a busy machine a robot rests late; deploy/README.md says how"
+        return Finding(False if _real(patient) else None, words)
+    return Finding(True, "real-time priority, locked memory, low OOM score")
 
 
 def terminal(patient: Patient) -> Finding:
@@ -156,6 +166,7 @@ CHECKS: dict[str, Callable[[Patient], Finding]] = {
     "packages": packages,
     "config": config_file,
     "i2c": i2c,
+    "privileges": privileges,
     "terminal": terminal,
     "clock": clock,
     "port": port,

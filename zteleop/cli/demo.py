@@ -5,6 +5,7 @@ import sys
 import tempfile
 from collections.abc import Sequence
 from contextlib import ExitStack
+from math import hypot
 from pathlib import Path
 
 from zteleop.bus import clock
@@ -17,12 +18,17 @@ from zteleop.inputs.script import Script
 from zteleop.machine.leash import Process, leashed
 from zteleop.messages import Odometry
 from zteleop.nodes.teleop import Teleop
+from zteleop.screen.floor import load, marks
 from zteleop.screen.view import View
 
 EXAMPLES = (
     "zteleop demo",
     "zteleop demo --drive hold",
 )
+OTHER = {
+    "step": ("hold", "drives while a key is held"),
+    "hold": ("step", "each press moves a lever, and there it stays"),
+}
 START = 10.0
 
 
@@ -47,9 +53,13 @@ def run(arguments: argparse.Namespace) -> int:
         node = stack.enter_context(Node("keyboard", robot, bus))
         await_robot(node, children, Path(log.name))
         if sys.stdin.isatty() and sys.stdout.isatty():
-            drive_with_keys(node, Config(bus=bus), arguments.drive)
-            return 0
-        return drive_figure(node)
+            trip = Trip()
+            drive_with_keys(node, Config(bus=bus), arguments.drive, marks(load("eight")), trip)
+            ending = farewell(trip, arguments.drive or "step")
+        else:
+            return drive_figure(node)
+    print(ending)  # all of it is over
+    return 0
 
 
 def drive_figure(node: Node) -> int:
@@ -59,25 +69,49 @@ def drive_figure(node: Node) -> int:
     with Script() as script:
         teller = Teller()
         Teleop(node, script, "program", find_vehicle(node, Config()), teller).run()
-    print(f"drove {teller.distance:.1f} m and stopped")
-    return 0 if teller.distance > 0 else 1
+    print(f"drove {teller.trip.distance:.1f} m and stopped")
+    return 0 if teller.trip.distance > 0 else 1
 
 
-class Teller:
-    """Prints a status line a second, and measures the way."""
+def farewell(trip: "Trip", drive: str) -> str:
+    """Return what was driven, and three commands that show something new."""
+    other, how = OTHER[drive]
+    steps = [
+        (f"zteleop demo --drive {other}", how),
+        ("zteleop keyboard --help", "every key"),
+        ("zteleop doctor", "what this machine has for a robot of your own"),
+    ]
+    drove = f"{trip.distance:.1f} m, {trip.fastest:.2f} m/s at most" if trip.distance else "nowhere"
+    return "\n".join([f"drove {drove}", "try next:", *(f"  {command:27}{does}" for command, does in steps)])
+
+
+class Trip:
+    """How far a car came, in m, and how fast, in m/s."""
 
     def __init__(self) -> None:
         self.distance = 0.0
-        self._place: tuple[float, float] | None = None
+        self.fastest = 0.0
+        self.place: tuple[float, float] | None = None
+
+    def __call__(self, view: View) -> None:
+        if view.odom is None:
+            return
+        at = view.odom.pose.pose.position
+        self.distance += hypot(at.x - self.place[0], at.y - self.place[1]) if self.place else 0.0
+        self.fastest = max(self.fastest, abs(view.odom.twist.twist.linear.x))
+        self.place = (at.x, at.y)
+
+
+class Teller:
+    """Prints a status line a second."""
+
+    def __init__(self) -> None:
+        self.trip = Trip()
         self._began = 0.0
         self._due = 0.0
 
     def __call__(self, view: View) -> None:
-        if view.odom:
-            place = view.odom.pose.pose.position
-            x, y = self._place or (place.x, place.y)
-            self.distance += ((place.x - x) ** 2 + (place.y - y) ** 2) ** 0.5
-            self._place = (place.x, place.y)
+        self.trip(view)
         if not self._began and view.status and view.odom:
             self._began = self._due = view.now
         if self._began and view.now >= self._due:
@@ -88,7 +122,7 @@ class Teller:
         if view.status is None or view.odom is None:
             return "no robot heard"
         pulses = "  ".join(f"{pulse.name} {pulse.duty_ticks}" for pulse in view.status.pulses)
-        x, y = self._place or (0.0, 0.0)
+        x, y = self.trip.place or (0.0, 0.0)
         speed = view.odom.twist.twist.linear.x
         return f"{view.status.state:13}  {speed:5.2f} m/s  x {x:6.2f} m  y {y:6.2f} m  {pulses}"
 

@@ -22,6 +22,6 @@ def run(arguments: argparse.Namespace) -> int:
     for name, check in CHECKS.items():
         good, words = check(patient)
         hinders += good is False
-        print(printable(f"{MARKS[good]:6} {name:9} {words}"), flush=True)
+        print(printable(f"{MARKS[good]:6} {name:10} {words}"), flush=True)
     print(f"\n{hinders} thing{'s'[: hinders - 1]} to mend" if hinders else "\nnothing hinders")
     return 1 if hinders else 0

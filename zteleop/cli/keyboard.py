@@ -1,6 +1,6 @@
 import argparse
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from zteleop.bus import clock
 from zteleop.bus.lane.call import Call
@@ -16,6 +16,7 @@ from zteleop.messages import Vehicle
 from zteleop.nodes.teleop import Teleop
 from zteleop.screen.dashboard import Dashboard
 from zteleop.screen.render import render
+from zteleop.screen.top_view import Mark
 from zteleop.screen.view import View
 
 EXAMPLES = (
@@ -51,15 +52,22 @@ def run(arguments: argparse.Namespace) -> None:
         drive_with_keys(node, settings, arguments.drive)
 
 
-def drive_with_keys(node: Node, settings: Config, drive: str | None = None) -> None:
-    """Show the keyboard screen and drive until the operator has enough."""
+def drive_with_keys(
+    node: Node,
+    settings: Config,
+    drive: str | None = None,
+    floor: Sequence[Mark] = (),
+    watch: Callable[[View], None] = lambda view: None,
+) -> None:
+    """Show the keyboard screen, with what lies on the floor, and drive until the operator has enough."""
     vehicle = find_vehicle(node, settings)
     drive = drive or ("step" if vehicle.takes_ticks else "hold")
     node.log.show = lambda line: None  # nothing prints over the screen: it shows the log itself
     keyboard = Keyboard("step" if drive == "step" else "hold", speeds=settings.speeds, steps=settings.steps)
-    paint = painter(keyboard, node.robot or "", settings.steps)
+    paint = painter(keyboard, node.robot or "", settings.steps, floor)
 
     def show(view: View) -> None:
+        watch(view)
         if keyboard.suspending:
             keyboard.suspend(clock.now())  # its last word is said
         else:
@@ -81,7 +89,7 @@ def find_vehicle(node: Node, settings: Config) -> Vehicle:
     )
 
 
-def painter(keyboard: Keyboard, robot: str, steps: Steps) -> Callable[[View], None]:
+def painter(keyboard: Keyboard, robot: str, steps: Steps, floor: Sequence[Mark]) -> Callable[[View], None]:
     """Return what draws the screen."""
     trail: deque[tuple[float, float]] = deque(maxlen=TRAIL)
 
@@ -98,6 +106,7 @@ def painter(keyboard: Keyboard, robot: str, steps: Steps) -> Callable[[View], No
             trail=trail,
             idle_left=left,
             steps=steps,
+            floor=floor,
             keys=keyboard.help,
         )
         terminal.draw(render(dashboard, columns, rows, unicode=terminal.unicode, color=terminal.color))

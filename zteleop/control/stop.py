@@ -10,6 +10,8 @@ REMEMBERED = 64
 PRESSERS = 64
 """How many stops are kept apart, one of each presser; those of all others are one, under no person's name."""
 MERGED = Stop(engaged=True, id=2**53 - 1, by="others", why=f"more than {PRESSERS} people press stop")
+RELEASE = "zteleop stop --release"
+"""What a shell says to release a stop; a screen has a key for it."""
 TOLD = 3
 """How many of them words name"""
 
@@ -90,5 +92,5 @@ def stopped_by(stops: Sequence[Stop]) -> str:
     """Return the stops in force in words."""
     if len(stops) == 1:
         who, why = stops[0].by or "somebody", f": {stops[0].why}" if stops[0].why else ""
-        return f"stopped by {who}{why}; zteleop stop --release, then begin from neutral"
+        return f"stopped by {who}{why}; {RELEASE}, then begin from neutral"
     return f"stopped by {whose(stops)}; each releases their own, then begin from neutral"

@@ -1,6 +1,7 @@
 """What a process that must not be late asks of Linux; each wish is granted or said, never fatal."""
 
 import os
+import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -64,6 +65,13 @@ def ask_for(priority: int, oom_score: int, system: Linux | None = None) -> list[
         SURVIVAL: lambda: _survive(kernel.oom_score, oom_score),
     }
     return [phrase for phrase, wish in wishes.items() if not _granted(wish)]
+
+
+def try_out(priority: int, oom_score: int) -> list[str]:
+    """Return what `ask_for` would be refused; a process of its own asks, and this one stays as it is."""
+    program = f"from {__name__} import ask_for; print(*ask_for({priority}, {oom_score}), sep='\\n')"
+    told = subprocess.check_output([sys.executable, "-c", program], text=True)
+    return [wish for wish in told.splitlines() if wish]
 
 
 @contextmanager

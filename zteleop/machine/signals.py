@@ -1,6 +1,7 @@
 """A signal that ends a process unwinds every `with` first, undisturbed: the last word is neutral."""
 
 import signal
+import sys
 import threading
 import time
 from collections.abc import Callable
@@ -15,6 +16,10 @@ UNDISTURBED = 1.0
 """s after a signal in which a second Ctrl-C does not end what the first began to clean up."""
 _raised = float("-inf")
 _DEFAULTS = (signal.SIG_DFL, signal.default_int_handler)
+
+
+class Interrupted(SystemExit, KeyboardInterrupt):
+    """Ctrl-C, for whoever catches that; a program that does not ends by it without a traceback."""
 
 
 def unwind() -> Callable[[], None]:
@@ -40,5 +45,6 @@ def _raise(number: int, frame: FrameType | None) -> None:
         return
     _raised = now
     if number == signal.SIGINT:
-        raise KeyboardInterrupt
+        # At a prompt an exit would end the interpreter, and with it what was typed so far.
+        raise KeyboardInterrupt if hasattr(sys, "ps1") else Interrupted(128 + number)
     raise SystemExit(128 + number)

@@ -64,7 +64,7 @@ def run(settings: Config, hand: PulseDriver, joined: Callable[[Node], object]) -
         pin = output_enable(settings.driver, chip)
         if pin:
             stack.callback(pin.close)
-        _ask_for_privileges(node)
+        _ask_for_privileges(node, tell=settings.driver != "simulated")
         orders = msgspec.json.encode(msgspec.structs.replace(settings, bus=behind))
         child = Child(ACTUATOR, orders, hand.shared())
         recorder = Recorder(BLACKBOX, orders, node.log.warn) if settings.blackbox else None
@@ -135,8 +135,9 @@ def _orders(bus: BusSettings, first: bool) -> bytes:
     return msgspec.json.encode({"bus": bus, "settle": first})
 
 
-def _ask_for_privileges(node: Node) -> None:
-    """Ask for them, and say what is missing last: it is what matters least to whoever starts a robot."""
-    if missing := realtime.ask_for(PROGRAM.priority, PROGRAM.oom_score):
+def _ask_for_privileges(node: Node, tell: bool) -> None:
+    """Ask for them, and tell what is missing last: it is what matters least to whoever starts a robot."""
+    missing = realtime.ask_for(PROGRAM.priority, PROGRAM.oom_score)
+    if missing and tell:
         words = f"runs without {', '.join(missing)}: not permitted; deploy/README.md says how"
         node.membership.loop.alarm(lambda: node.log.info(words)).ring_at(clock.now() + STARTED_WITHIN)

@@ -2,6 +2,7 @@
 
 from zteleop.control.hold import HOLDS
 from zteleop.control.proof import called
+from zteleop.control.stop import RELEASE
 from zteleop.screen.dashboard import WIDE, Dashboard, Line, channel, line
 from zteleop.terminal.cells import Span, cut, pad, printable, width, wrap
 
@@ -54,7 +55,8 @@ def reasons(d: Dashboard, unicode: bool) -> list[tuple[str, str]]:
         robot = printable(d.robot, unicode)
         start = f"start `zteleop actuator --robot {robot}`"
         return [(f"no actuator heard on robot {robot}; {start}, or, if it moves, cut its power", "")]
-    why = (printable(status.why, unicode), "")
+    # The robot's words are for every reader; here a key does it.
+    why = (printable(status.why.replace(RELEASE, "r releases it"), unicode), "")
     if d.asks and d.seen.refused:
         words = d.seen.refused.removesuffix(f" ({status.why})")
         refused = (f"you are not obeyed: {printable(words, unicode)}", "yellow")

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from zteleop.messages import Odometry, Vehicle
 from zteleop.screen.canvas import Canvas, Dot
 from zteleop.screen.chassis import draw_chassis, length_of
-from zteleop.terminal.cells import Span, cut, fit
+from zteleop.terminal.cells import Span, cut_left
 
 SPANS = (3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0, 48.0)
 """m that the shorter side of the picture shows: the least that holds the whole trail."""
@@ -127,5 +127,4 @@ def scale_bar(scale: float, larger: int, columns: int, unicode: bool, row: list[
     bar += f" robot {larger}x " if larger > 1 else ""
     if len(bar) > columns:
         return row
-    text = "".join(span.text for span in row)
-    return fit([Span(bar, "dim"), Span(text[len(cut(bar, columns)) :])], columns)
+    return [Span(bar, "dim"), *cut_left(row, len(bar))]

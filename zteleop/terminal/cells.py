@@ -88,6 +88,16 @@ def fit(spans: list[Span], cells: int) -> list[Span]:
     return kept
 
 
+def cut_left(spans: list[Span], cells: int) -> list[Span]:
+    """Return a line without its first cells; each of its characters takes one."""
+    kept: list[Span] = []
+    for span in spans:
+        text = span.text[cells:]
+        cells = max(0, cells - len(span.text))
+        kept += [Span(text, span.style)] if text else []
+    return kept
+
+
 def pad(spans: list[Span], cells: int) -> list[Span]:
     """Return a line of exactly so many cells."""
     kept = fit(spans, cells)

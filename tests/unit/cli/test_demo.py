@@ -2,23 +2,34 @@ from types import SimpleNamespace
 
 import pytest
 
-from zteleop.cli.demo import Teller
+from zteleop.cli.demo import Teller, Trip, farewell
 from zteleop.messages import DriveStatus, Odometry
 from zteleop.testing import Clock
 
 
-def view(clock: Clock, x: float = 0.0, heard: bool = True) -> SimpleNamespace:
+def view(clock: Clock, x: float = 0.0, heard: bool = True, speed: float = 0.0) -> SimpleNamespace:
     odom = Odometry.zero()
-    odom.pose.pose.position.x = x
+    odom.pose.pose.position.x, odom.twist.twist.linear.x = x, speed
     status = DriveStatus.zero() if heard else None
     return SimpleNamespace(now=clock.time, odom=odom if heard else None, status=status)
 
 
 def test_the_way_is_measured_from_the_first_place(clock: Clock) -> None:
-    teller = Teller()
-    for x in (5.0, 6.0, 5.5):
-        teller(view(clock, x))
-    assert teller.distance == pytest.approx(1.5)
+    trip = Trip()
+    trip(view(clock, heard=False))
+    for x, speed in ((5.0, 0.0), (6.0, 0.5), (5.5, -0.7)):
+        trip(view(clock, x, speed=speed))
+    assert (trip.distance, trip.fastest) == (pytest.approx(1.5), 0.7)
+
+
+@pytest.mark.parametrize(("drive", "other"), [("step", "hold"), ("hold", "step")])
+def test_the_end_offers_the_other_drive(clock: Clock, drive: str, other: str) -> None:
+    trip = Trip()
+    assert farewell(trip, drive).startswith("drove nowhere\ntry next:\n")
+    assert f"  zteleop demo --drive {other} " in farewell(trip, drive)
+    for x in (0.0, 2.0):
+        trip(view(clock, x, speed=0.25))
+    assert farewell(trip, drive).startswith("drove 2.0 m, 0.25 m/s at most\n")
 
 
 def test_it_prints_a_line_a_second(clock: Clock, capsys: pytest.CaptureFixture[str]) -> None:

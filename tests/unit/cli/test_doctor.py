@@ -14,6 +14,7 @@ from zteleop.cli._checkup import CHECKS, Finding, Patient
 from zteleop.cli._run import run_verb
 from zteleop.config import Config, parse
 from zteleop.errors import BusError
+from zteleop.machine import realtime
 
 CAR = Patient(Config(), "", True)
 REAL = Patient(parse(b"driver = 'pca9685'\n[drivers.pca9685]\nbus = 7\n"), "", True)
@@ -169,10 +170,10 @@ def test_each_check_is_a_line_and_what_hinders_is_counted(
     checks = {"wheel": lambda patient: Finding(True, "round"), "cat": lambda patient: Finding(None, "asleep")}
     monkeypatch.setattr(doctor, "CHECKS", checks)
     assert run_verb("doctor", "say", []) == 0
-    assert capsys.readouterr().out == "good   wheel     round\n-      cat       asleep\n\nnothing hinders\n"
+    assert capsys.readouterr().out == "good   wheel      round\n-      cat        asleep\n\nnothing hinders\n"
     checks["key"] = lambda patient: Finding(False, f"none for {patient.settings.robot}")
     assert run_verb("doctor", "say", ["--robot", "abe"]) == 1
-    assert capsys.readouterr().out.endswith("WRONG  key       none for abe\n\n1 thing to mend\n")
+    assert capsys.readouterr().out.endswith("WRONG  key        none for abe\n\n1 thing to mend\n")
     checks["door"] = lambda patient: Finding(False, "shut")
     assert run_verb("doctor", "say", []) == 1
     assert capsys.readouterr().out.endswith("\n\n2 things to mend\n")
@@ -185,5 +186,19 @@ def test_a_typo_in_the_config_file_ends_no_examination(
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(doctor, "CHECKS", {"config": CHECKS["config"]})
     assert run_verb("doctor", "say", []) == 1
-    said = "WRONG  config    config.toml:1:1: robt: no such setting; did you mean robot?\n\n1 thing to mend\n"
+    said = (
+        "WRONG  config     config.toml:1:1: robt: no such setting; did you mean robot?\n\n1 thing to mend\n"
+    )
     assert capsys.readouterr() == (said, "")
+
+
+@pytest.mark.parametrize(("driver", "good"), [("pca9685", False), ("simulated", None)])
+def test_privileges_that_are_missing_hinder_a_real_robot(
+    monkeypatch: pytest.MonkeyPatch, driver: str, good: bool | None
+) -> None:
+    patient, missing = REAL if driver == "pca9685" else CAR, list[str]()
+    monkeypatch.setattr(realtime, "try_out", lambda priority, oom_score: missing)
+    assert _checkup.privileges(patient) == (True, "real-time priority, locked memory, low OOM score")
+    missing += [realtime.LOCKED, realtime.SURVIVAL]
+    assert _checkup.privileges(patient).good is good
+    assert _checkup.privileges(patient).words.startswith("no locked memory, low OOM score: ")

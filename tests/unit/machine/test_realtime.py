@@ -239,3 +239,9 @@ def test_an_ordinary_user_is_refused_and_can_allocate_more_than_may_be_locked() 
     assert [*told["lent"], *told["threads"]] == 4 * [[os.SCHED_OTHER, 0]]
     assert not told["locked"]
     assert told["limit"][0] == told["limit"][1] > 0
+
+
+def test_trying_out_takes_nothing_for_this_process() -> None:
+    before = realtime.Linux().rank()
+    assert set(realtime.try_out(1, 0)) <= {realtime.PRIORITY, realtime.LOCKED, realtime.SURVIVAL}
+    assert realtime.Linux().rank() == before

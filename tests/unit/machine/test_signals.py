@@ -1,4 +1,5 @@
 import signal
+import sys
 from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any
@@ -37,7 +38,7 @@ def test_every_ending_signal_unwinds_and_is_given_back(handlers: Table) -> None:
 @pytest.mark.parametrize(
     ("number", "ending"),
     [
-        (signal.SIGINT, KeyboardInterrupt()),
+        (signal.SIGINT, KeyboardInterrupt(130)),
         (signal.SIGTERM, SystemExit(143)),
         (signal.SIGHUP, SystemExit(129)),
     ],
@@ -79,3 +80,18 @@ def test_only_the_main_thread_may_handle_signals(handlers: Table, monkeypatch: p
     )
     signals.unwind()()
     assert handlers == Table()
+
+
+def test_ctrl_c_ends_a_program_quietly_and_is_still_what_people_catch(
+    handlers: Table, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(signals, "UNDISTURBED", 0.0)
+    signals.unwind()
+    with pytest.raises(KeyboardInterrupt) as found:
+        handlers[signal.SIGINT](signal.SIGINT, None)
+    assert isinstance(found.value, SystemExit)
+    assert found.value.code == 130
+    monkeypatch.setattr(sys, "ps1", ">>> ", raising=False)
+    with pytest.raises(KeyboardInterrupt) as found:
+        handlers[signal.SIGINT](signal.SIGINT, None)
+    assert not isinstance(found.value, SystemExit), "at a prompt the interpreter goes on"

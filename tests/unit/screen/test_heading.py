@@ -1,7 +1,8 @@
 import pytest
 from unit.screen.boards import dashboard, pulses, status, texts
 
-from zteleop.messages import Pwm
+from zteleop.control.stop import stopped_by
+from zteleop.messages import Pwm, Stop
 from zteleop.screen.heading import heading
 from zteleop.screen.readings import readings
 
@@ -105,3 +106,10 @@ def test_on_a_wide_screen_a_cap_moves_nothing_and_yields_to_a_long_reason(car):
     shown = texts(readings(dashboard("step", car, status=status(why=why, **LATE)), 80, True))
     assert "at most" not in " ".join(shown)
     assert shown[3].startswith("Currently outputting")
+
+
+def test_a_screen_names_the_key_that_releases_a_stop(car):
+    why = stopped_by([Stop(True, 7, "ann@desk", "a cat")])
+    board = dashboard("step", car, status=status(state="stopped", why=why))
+    words = "stopped by ann@desk: a cat; r releases it, then begin from neutral"
+    assert texts(heading(board, 80, True))[1] == words

@@ -22,7 +22,7 @@ def room(scene: Scene, x: float, y: float) -> float:
 
 
 def test_the_simplest_is_a_floor_without_end() -> None:
-    assert sorted(SCENES) == ["classroom", "floor", "maze", "track"]
+    assert sorted(SCENES) == ["classroom", "eight", "floor", "maze", "track"]
     assert SCENES["floor"] == Scene()
 
 
@@ -56,3 +56,12 @@ def test_the_line_of_the_track_is_smooth_and_well_off_the_walls() -> None:
     sides = Obstacles(track).near(0, 0, 100)
     assert min(clearance(side, *point) for side in sides for point in line.points) > 0.6
     assert track.start.y == 0.0
+
+
+def test_the_eight_starts_on_both_its_rounds_and_has_a_cone_in_each() -> None:
+    eight = SCENES["eight"]
+    for tape, cone in zip(eight.tapes, eight.posts, strict=True):
+        assert [dist(point, cone.at) for point in tape.points] == pytest.approx(
+            [1.0] * len(tape.points), abs=1e-6
+        )
+        assert dist((eight.start.x, eight.start.y), cone.at) == 1.0

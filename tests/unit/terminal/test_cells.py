@@ -2,7 +2,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from zteleop.terminal.cells import Span, cut, fit, pad, paint, printable, width, wrap
+from zteleop.terminal.cells import Span, cut, cut_left, fit, pad, paint, printable, width, wrap
 
 
 @pytest.mark.parametrize(
@@ -49,3 +49,9 @@ def test_a_line_is_cut_across_spans_and_styled():
     assert spans == [Span("abc", "bold"), Span("de", "red")]
     assert paint(spans, color=False) == "abcde"
     assert paint(spans, color=True) == "\x1b[1mabc\x1b[0m\x1b[31mde\x1b[0m"
+
+
+def test_a_line_without_its_first_cells_keeps_its_styles():
+    line = [Span("ab", "red"), Span("cd"), Span("ef", "dim")]
+    for cells, kept in ((0, line), (1, [Span("b", "red"), *line[1:]]), (3, [Span("d"), line[2]]), (9, [])):
+        assert cut_left(line, cells) == kept
