@@ -36,3 +36,8 @@ def test_donkeycars_calibration_in_ticks_at_60_hz() -> None:
     throttle = DONKEYCAR["throttle"].to_channel("throttle", 4.08)
     assert (steering.min_ticks, steering.neutral_ticks, steering.max_ticks) == (290, 375, 460)
     assert (throttle.min_ticks, throttle.neutral_ticks, throttle.max_ticks) == (220, 370, 500)
+
+
+@pytest.mark.parametrize(("dead_zone_us", "ticks"), [(0.0, 0), (4.0, 0), (15.0, 3), (16.4, 4)])
+def test_a_dead_zone_is_told_in_whole_ticks_that_turn_nothing(dead_zone_us, ticks):
+    assert Servo(0, dead_zone_us=dead_zone_us).to_channel("throttle", 4.08).dead_ticks == ticks

@@ -75,7 +75,7 @@ def test_while_stopped_the_first_reason_is_the_stop(car):
 
 @pytest.mark.parametrize(
     ("ticks", "ours", "told"),
-    [(370, True, False), (372, True, True), (374, True, False), (372, False, False)],
+    [(370, True, False), (372, True, True), (373, True, True), (374, True, False), (372, False, False)],
 )
 def test_a_throttle_in_the_dead_zone_says_that_nothing_turns(car, ticks, ours, told):
     car.channels[1].dead_ticks = 3

@@ -79,6 +79,12 @@ def test_stopped_is_said_in_red_with_its_reason_and_the_stop_key_is_bold(car):
     assert shown(page)[3] == "Currently outputting:[Steering PWM, Throttle PWM] = [375, 370]"
 
 
+def test_the_page_of_keys_has_no_picture_behind_it(car):
+    lines = shown(board(car)._replace(keys=[("q", "quit")]))
+    assert "q   quit" in lines
+    assert not any("⣿" in line for line in lines)
+
+
 ALARM = "archangel has not acknowledged the stop within 2 s: cut its power, or run zteleop neutral on it"
 
 

@@ -53,6 +53,13 @@ def test_the_whole_trail_is_in_sight(places):
         assert 0 <= y < 80
 
 
+def test_a_picture_holds_where_the_robot_has_been(car):
+    here, bar = odometry(0, 0), 20
+    near = picture(here, [(0.0, 0.0)], car)[-1].count("─")
+    assert near == bar - 2
+    assert picture(here, [(-5.0, 0.0), (0.0, 0.0)], car)[-1].count("─") < near / 2
+
+
 def test_it_looks_as_closely_as_the_trail_allows():
     close = choose_window([(0.0, 0.0)], 108, 80)
     far = choose_window([(0.0, 0.0), (10.0, 0.0)], 108, 80)
