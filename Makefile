@@ -8,8 +8,8 @@ BIN := .venv/bin
 demo: .venv/installed
 	@$(BIN)/zteleop demo
 
-# What claims an order shares the machine, three tests at a time, with the units; what claims a duration has it alone,
-# afterwards. Thousands of processes start meanwhile, so Python keeps what it compiled, whatever the surroundings say.
+# What claims an order shares the machine, three tests at a time, with the units; what claims a duration, or holds the
+# keys of a real terminal, has it alone, afterwards. Thousands of processes start meanwhile, so Python keeps what it compiled, whatever the surroundings say.
 test: export PYTHONDONTWRITEBYTECODE =
 test: .venv/installed-dev
 	@$(BIN)/python -m compileall -q zteleop
@@ -17,7 +17,7 @@ test: .venv/installed-dev
 	$(BIN)/pytest --numprocesses 3 --dist loadfile --no-loadscope-reorder --durations 20 \
 		tests/sweeps tests/peers tests/system tests/faults tests/fuzz; order=$$?; \
 	wait $$units; units=$$?; cat $$said; rm $$said; \
-	$(BIN)/pytest --durations 20 tests/timing && exit $$((order | units))
+	$(BIN)/pytest --durations 20 tests/timing tests/desktop && exit $$((order | units))
 
 # Two halves side by side, each in one process: what workers say to each other costs more than these tests.
 HALF := $(addprefix tests/unit/,interfaces recording sim terminal text)

@@ -2,6 +2,7 @@
 
 import os
 import pty
+import re
 import signal
 import subprocess
 import sys
@@ -194,8 +195,15 @@ class Terminal(Process):
         folder: Path,
         columns: int = 80,
         rows: int = 24,
+        tells_releases: bool = False,
     ) -> None:
         self._said = threading.Condition()
+        self._answered = 0
+        self._tells_releases = tells_releases
+        self.flags = [0]
+        """Of kitty's keyboard protocol, as they were pushed."""
+        self.silent = False
+        """It answers nothing, as one behind a link that stalls."""
         self._screen = pyte.Screen(columns, rows)
         self._stream = pyte.ByteStream(self._screen)
         self.output = b""
@@ -271,5 +279,30 @@ class Terminal(Process):
             while data := os.read(self._master, 65536):
                 with self._said:
                     self.output += data
-                    self._stream.feed(data)
+                    self._answer()
+                    self._stream.feed(self.FOREIGN.sub(b"", data))
                     self._said.notify_all()
+
+    FOREIGN = re.compile(rb"\x1b\[[<>]\d*u")
+    """What pyte would take for text."""
+    QUESTIONS = re.compile(rb"\x1b\[(?:(c)|(\?)u|>(\d+)u|(<)u)")
+
+    def _answer(self) -> None:
+        """Answer what the program asks of its terminal, and remember what it sets."""
+        for found in self.QUESTIONS.finditer(self.output, self._answered):
+            self._answered = found.end()
+            attributes, flags, push, pop = found.groups()
+            if push:
+                self.flags.append(int(push))
+            elif pop and len(self.flags) > 1:
+                self.flags.pop()
+            elif attributes and not self.silent:
+                self.type("\x1b[?62;22c")
+            elif flags and self._tells_releases and not self.silent:
+                self.type(f"\x1b[?{self.flags[-1]}u")
+
+    def key(self, name: str, event: str = "press") -> None:
+        """Do to a key what the protocol tells: press, repeat or release it."""
+        number = {"press": 1, "repeat": 2, "release": 3}[event]
+        final = {"up": "A", "down": "B", "right": "C", "left": "D"}.get(name)
+        self.type(f"\x1b[1;1:{number}{final}" if final else f"\x1b[{ord(name)};1:{number}u")

@@ -160,7 +160,12 @@ class Rig:
         )
 
     def keyboard(
-        self, *arguments: str, columns: int = 80, rows: int = 24, environment: Mapping[str, str] | None = None
+        self,
+        *arguments: str,
+        columns: int = 80,
+        rows: int = 24,
+        environment: Mapping[str, str] | None = None,
+        tells_releases: bool = False,
     ) -> Terminal:
         """Sit down before a terminal with the keyboard's screen on it."""
         return self.terminal(
@@ -170,16 +175,22 @@ class Rig:
             columns=columns,
             rows=rows,
             environment=environment or {},
+            tells_releases=tells_releases,
         )
 
     def terminal(
-        self, *arguments: str, columns: int = 80, rows: int = 24, environment: Mapping[str, str] | None = None
+        self,
+        *arguments: str,
+        columns: int = 80,
+        rows: int = 24,
+        environment: Mapping[str, str] | None = None,
+        tells_releases: bool = False,
     ) -> Terminal:
         """Run a verb in the foreground of a terminal."""
         surroundings = self.environment | {"TERM": "xterm-256color", "LC_ALL": "C.UTF-8"}
         surroundings |= environment or {}
         command = [*ZTELEOP[1:], *arguments]
-        return self.keep(Terminal(command, surroundings, self.folder, columns, rows))
+        return self.keep(Terminal(command, surroundings, self.folder, columns, rows, tells_releases))
 
     def session(self) -> zenoh.Session:
         """Join the bus without any of zteleop's manners."""

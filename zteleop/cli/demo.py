@@ -14,6 +14,7 @@ from zteleop.bus.settings import SAME_MACHINE_DOOR, BusSettings
 from zteleop.cli.keyboard import drive_with_keys, find_vehicle
 from zteleop.config import Config
 from zteleop.errors import BusError
+from zteleop.inputs import Drive
 from zteleop.inputs.script import Script
 from zteleop.machine.leash import Process, leashed
 from zteleop.messages import Odometry
@@ -25,7 +26,7 @@ EXAMPLES = (
     "zteleop demo",
     "zteleop demo --drive hold",
 )
-OTHER = {
+OTHER: dict[Drive, tuple[Drive, str]] = {
     "step": ("hold", "drives while a key is held"),
     "hold": ("step", "each press moves a lever, and there it stays"),
 }
@@ -54,8 +55,8 @@ def run(arguments: argparse.Namespace) -> int:
         await_robot(node, children, Path(log.name))
         if sys.stdin.isatty() and sys.stdout.isatty():
             trip = Trip()
-            drive_with_keys(node, Config(bus=bus), arguments.drive, marks(load("eight")), trip)
-            ending = farewell(trip, arguments.drive or "step")
+            drive = drive_with_keys(node, Config(bus=bus), arguments.drive, marks(load("eight")), trip)
+            ending = farewell(trip, drive)
         else:
             return drive_figure(node)
     print(ending)  # all of it is over
@@ -73,7 +74,7 @@ def drive_figure(node: Node) -> int:
     return 0 if teller.trip.distance > 0 else 1
 
 
-def farewell(trip: "Trip", drive: str) -> str:
+def farewell(trip: "Trip", drive: Drive) -> str:
     """Return what was driven, and three commands that show something new."""
     other, how = OTHER[drive]
     steps = [

@@ -9,6 +9,7 @@ from zteleop.cli import _options
 from zteleop.config import Config
 from zteleop.control.report import to_vehicle
 from zteleop.drivers import tick_us
+from zteleop.inputs import Drive
 from zteleop.inputs.keyboard import Keyboard
 from zteleop.inputs.keymap import KEYS, describe
 from zteleop.inputs.levers import Steps
@@ -55,15 +56,18 @@ def run(arguments: argparse.Namespace) -> None:
 def drive_with_keys(
     node: Node,
     settings: Config,
-    drive: str | None = None,
+    drive: Drive | None = None,
     floor: Sequence[Mark] = (),
     watch: Callable[[View], None] = lambda view: None,
-) -> None:
-    """Show the keyboard screen, with what lies on the floor, and drive until the operator has enough."""
+) -> Drive:
+    """Show the keyboard screen, with what lies on the floor, and drive until the operator has enough.
+
+    Return how: unless somebody said so, while keys are held where their release is told, else in steps
+    what takes them.
+    """
     vehicle = find_vehicle(node, settings)
-    drive = drive or ("step" if vehicle.takes_ticks else "hold")
     node.log.show = lambda line: None  # nothing prints over the screen: it shows the log itself
-    keyboard = Keyboard("step" if drive == "step" else "hold", speeds=settings.speeds, steps=settings.steps)
+    keyboard = Keyboard(speeds=settings.speeds, steps=settings.steps)
     paint = painter(keyboard, node.robot or "", settings.steps, floor)
 
     def show(view: View) -> None:
@@ -74,7 +78,11 @@ def drive_with_keys(
             paint(view)
 
     with keyboard, Call(settings.bus) as lane:
+        keyboard.settle(clock.now)
+        steps = vehicle.takes_ticks and not keyboard.tells_releases
+        keyboard.drive = drive or ("step" if steps else "hold")
         Teleop(node, keyboard, "keyboard", vehicle, show, lane).run()
+    return keyboard.drive
 
 
 def find_vehicle(node: Node, settings: Config) -> Vehicle:
@@ -107,6 +115,7 @@ def painter(keyboard: Keyboard, robot: str, steps: Steps, floor: Sequence[Mark])
             idle_left=left,
             steps=steps,
             floor=floor,
+            certainty=keyboard.certainty,
             keys=keyboard.help,
         )
         terminal.draw(render(dashboard, columns, rows, unicode=terminal.unicode, color=terminal.color))

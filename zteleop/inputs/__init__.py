@@ -6,6 +6,9 @@ from typing import Literal, Protocol, Self
 from zteleop.control.stick import Speeds, Stick
 from zteleop.messages import Vehicle
 
+Drive = Literal["step", "hold"]
+"""step makes Pwm (latched levers), hold makes Twist (drive while held)."""
+
 
 class Wish(Enum):
     """What an operator may want besides driving."""
@@ -19,8 +22,7 @@ class Wish(Enum):
 class Input(Protocol):
     """A device an operator holds, used in a `with`."""
 
-    drive: Literal["step", "hold"]
-    """step makes Pwm (latched levers), hold makes Twist (drive while held)."""
+    drive: Drive
     finished: bool
     """The operator asked to end."""
     rested: bool

@@ -1,17 +1,20 @@
 """The keys of a terminal as a stick: what each key does is a table."""
 
+import select
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Literal, Self
 
 from zteleop.control.stick import Speeds, Stick
 from zteleop.errors import DeviceError
 from zteleop.inputs import Wish
-from zteleop.inputs.held_keys import FIRST, REPEATING, Block, HeldKeys
+from zteleop.inputs.held_keys import FIRST, REPEATING, Block
+from zteleop.inputs.holding import Holding
 from zteleop.inputs.keymap import DIRECTIONS, bindings, describe
 from zteleop.inputs.levers import Axis, Levers, Steps
 from zteleop.inputs.speed_keys import FASTER, SLOWER, SpeedKeys
 from zteleop.inputs.wishes import Wishes
 from zteleop.messages import Vehicle
+from zteleop.terminal.keys import Key
 from zteleop.terminal.typed import Typed
 
 if TYPE_CHECKING:
@@ -19,10 +22,14 @@ if TYPE_CHECKING:
 
 IDLE_LIMIT = 5.0
 """s without a key until neutral; the robot may shorten it."""
+ANSWERED_WITHIN = 0.3
+"""s that a terminal has to say what it can; one that is far may say so later."""
 
 
 class Keyboard:
     """An operator's keys, in steps (latched levers) or held.
+
+    A key that is held is known by its release where the terminal tells it, else by its repeats.
 
     Raises DeviceError without a terminal, ConfigError for a key bound to no action.
     """
@@ -47,7 +54,7 @@ class Keyboard:
         self._speed_keys = SpeedKeys(speeds or Speeds())
         self._wishes = Wishes()
         self._levers = Levers(steps)
-        self._held = HeldKeys()
+        self._holding = Holding()
         self._block = Block()
         self._now = 0.0
         self._acted = float("-inf")
@@ -84,6 +91,26 @@ class Keyboard:
         """The keys of each action and what they do, while the operator wants to see them."""
         return describe(self._bindings, self.drive) if self._wishes.help else []
 
+    @property
+    def tells_releases(self) -> bool:
+        """Whether the terminal tells when a key is let go."""
+        return self._typed.releases.told
+
+    @property
+    def certainty(self) -> str:
+        """How sure it is which keys are held, and what would make it surer."""
+        if not self.tells_releases:
+            return "release guessed; kitty, foot, ghostty tell it"
+        return "release told (kitty protocol)" if self._typed.releases.focused else "no focus: neutral"
+
+    def settle(self, clock: Callable[[], float]) -> None:
+        """Wait, not for long, until the terminal has said what it can; what is typed meanwhile is lost."""
+        give_up = clock() + ANSWERED_WITHIN
+        self._typed.read(clock())
+        while not self._typed.releases.known and (left := give_up - clock()) > 0:
+            select.select([self.terminal], [], [], left)
+            self._typed.read(clock())
+
     def fileno(self) -> int:
         """Return what turns readable when a key was pressed."""
         return self.terminal.fileno()
@@ -99,26 +126,35 @@ class Keyboard:
         self._speed_keys.fit(vehicle)
 
     def read(self, now: float) -> bool:
-        """Take in the keys pressed, without blocking; True when there were any."""
+        """Take in what happened to the keys, without blocking; True when somebody acts."""
         self._now = now
         keys = self._typed.read(now)
+        self._holding.told = self.tells_releases
         if self._typed.ended:
             self.quit()
-        if self._typed.went_on():
+        if self._typed.went_on(now):
             self.reset(now)
         if self._idle(now):  # a loop that came late must not step on from where it was
             self.neutral()
         for key in keys:
-            self._acted = now
-            self._press(key)
+            if key.event == "release":
+                self._holding.release(key)
+            else:
+                self._acted = now
+                self._press(key)
             self.rested = self.rested or not self.stick(now).deadman
-        return bool(keys)
+        self._watch(now)
+        acts = self._holding.known or any(key.event != "release" for key in keys)
+        self._acted = now if acts else self._acted
+        return acts
 
     def stick(self, now: float) -> Stick:
         """Return where the stick is; neutral after `idle_limit` without a key."""
         if self._idle(now):
             self.neutral()
-        return self._levers.stick() if self.drive == "step" else self._held.stick(now)
+        if self.drive == "step":
+            return self._levers.stick()
+        return self._holding.stick(now)
 
     def idle_left(self, now: float) -> float | None:
         """Return the seconds until neutral for want of a key; None when it is neutral already."""
@@ -131,15 +167,26 @@ class Keyboard:
 
     def suspend(self, now: float) -> None:
         """Stop the process as Ctrl-Z asked and return when it goes on, neutral."""
-        self._typed.suspend()
+        self._typed.suspend(now)
         self.suspending = False
         self.reset(now)
 
     def _idle(self, now: float) -> bool:
         return now - self._acted >= self.idle_limit
 
-    def _press(self, key: str) -> None:
-        action = self._bindings.get(key) or self._bindings.get(key.lower(), "")
+    def _watch(self, now: float) -> None:
+        """Let everything go when a release may be lost: with the focus, or a terminal that is silent."""
+        releases = self._typed.releases
+        if not releases.focused:
+            self.neutral()
+            self._holding.look_away(now)
+        elif self._holding.known:
+            releases.ping(now)
+            if releases.is_silent(now):
+                self.neutral()
+
+    def _press(self, key: Key) -> None:
+        action = self._bindings.get(key.name) or self._bindings.get(key.name.lower(), "")
         if (self.finished or self.suspending) and action != "stop robot":
             return
         if action in DIRECTIONS:
@@ -147,23 +194,25 @@ class Keyboard:
         elif action:
             ACTIONS[action](self)
 
-    def _drive(self, key: str, axis: Axis, sign: int) -> None:
-        if not self._block.passes(key, self._now) or self.wish is Wish.STOP:
+    def _drive(self, key: Key, axis: Axis, sign: int) -> None:
+        passes = self._block.passes(key.name, self._now)
+        is_known_press = self.tells_releases and key.event == "press"
+        if not (passes or is_known_press) or self.wish is Wish.STOP:
             return
         if self.drive == "step":
             self._levers.press(axis, sign)
         else:
-            self._held.press(key, "forward" if axis == "throttle" else "turn", sign, self._now)
+            self._holding.press(key, axis, sign, self._now)
 
     def neutral(self) -> None:
         """Bring both axes to neutral."""
         self._levers.neutral()
-        self._held.clear()
+        self._holding.clear()
 
     def stop(self) -> None:
         """Bring the throttle to neutral, the steering as it is; held keys are let go."""
         self._levers.neutral("throttle")
-        self._held.clear()
+        self._holding.clear()
 
     def stop_robot(self) -> None:
         """Go neutral and ask for a stop that stays; a key that repeats is one press."""

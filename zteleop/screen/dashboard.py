@@ -27,6 +27,8 @@ class Dashboard(NamedTuple):
     idle_left: float | None = None
     """s until neutral for want of a key; None when it is neutral already"""
     steps: Steps = Steps()
+    certainty: str = ""
+    """how sure it is which keys are held"""
     floor: Sequence[Mark] = ()
     """lies around the robot"""
     keys: Sequence[tuple[str, str]] = ()

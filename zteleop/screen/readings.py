@@ -19,6 +19,7 @@ def readings(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
         line(9),
         *bar_lines(d, columns, unicode),
         idle(d, columns),
+        *([labelled(8, "keys", d.certainty, columns, "dim")] if d.certainty else []),
         line(9),
         *value_lines(d, columns, unicode),
     ]

@@ -38,7 +38,6 @@ class Terminal:
         self.resumed = 0
         """How often the process was stopped and went on."""
         self._fd = -1
-        self._entered = False
         self._continued = False
         self._resized = False
         self._saved: list[Any] = []
@@ -46,6 +45,8 @@ class Terminal:
         self._shown: list[str] = []
         self._shown_size = (0, 0)
         self._pending = b""
+        self._undo: list[str] = []
+        """What gives the terminal back, the last first; nothing while it is not taken."""
 
     def __enter__(self) -> Self:
         # a file of its own: O_NONBLOCK on standard input would be the shell's as well
@@ -115,6 +116,21 @@ class Terminal:
         self._shown_size = (0, 0)
         self._shown = []
 
+    def say(self, text: str) -> bool:
+        """Write a question or a command behind what is on its way; False where nothing would answer."""
+        if self._dumb:
+            return False
+        self._pending += text.encode()
+        self._push()
+        return True
+
+    def switch_on(self, on: str, off: str) -> bool:
+        """Write what changes a mode, and at the end what changes it back; False when it was on already."""
+        if off in self._undo:
+            return False
+        self._undo.append(off)
+        return self.say(on)
+
     def suspend(self) -> None:
         """Give the terminal back and stop, as Ctrl-Z does; go on where the shell says so."""
         self._leave()
@@ -134,7 +150,7 @@ class Terminal:
         return columns or FALLBACK_SIZE[0], 1 if self._dumb else rows or FALLBACK_SIZE[1]
 
     def _enter(self) -> None:
-        self._entered = True
+        self._undo = self._undo or ["\r\n" if self._dumb else LEAVE]
         with suppress(termios.error):  # hung up: the next read says so
             termios.tcsetattr(self._fd, termios.TCSANOW, raw_mode(self._saved))
             termios.tcflush(self._fd, termios.TCIFLUSH)
@@ -143,19 +159,19 @@ class Terminal:
         self._write_all("" if self._dumb else ENTER)
 
     def _leave(self) -> None:
-        if not self._entered:
+        if not self._undo:
             return
         # in the background the shell owns the modes, and SIGTTOU would stop us here for good
         masked = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGTTOU})
         try:
-            self._write_all("\r\n" if self._dumb else LEAVE)
+            self._write_all("".join(reversed(self._undo)))
         finally:
             if in_foreground(self._fd):
                 with suppress(termios.error):
                     termios.tcflush(self._fd, termios.TCIFLUSH)
                     termios.tcsetattr(self._fd, termios.TCSANOW, self._saved)
             signal.pthread_sigmask(signal.SIG_SETMASK, masked)
-        self._entered = False
+        self._undo = []
 
     def _on_continue(self, _signal: int, _frame: FrameType | None) -> None:
         self._continued = True

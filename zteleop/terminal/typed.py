@@ -1,8 +1,9 @@
-"""What is typed at a terminal, as names of keys."""
+"""What is typed at a terminal, key by key."""
 
 from typing import TYPE_CHECKING
 
-from zteleop.terminal.keys import KeyParser
+from zteleop.terminal.keys import Key, KeyParser, Report
+from zteleop.terminal.releases import Releases
 
 if TYPE_CHECKING:
     from zteleop.terminal.terminal import Terminal
@@ -15,26 +16,42 @@ class Typed:
         self.terminal = terminal
         self.ended = False
         """The terminal hung up."""
+        self.releases = Releases(terminal)
         self._parser = KeyParser()
         self._resumed = 0
+        self._asked = False
 
-    def read(self, now: float) -> list[str]:
-        """Return the keys pressed since, without blocking."""
-        keys = self._parser.flush(now)
+    def read(self, now: float) -> list[Key]:
+        """Return what happened to keys since, without blocking."""
+        if not self._asked:
+            self._asked = True
+            self.releases.ask(now)
+        found = self._parser.flush(now)
         try:
-            return keys + self._parser.feed(self.terminal.read(), now)
+            if data := self.terminal.read():
+                self.releases.hear_bytes(now)
+                found += self._parser.feed(data, now)
         except EOFError:
             self.ended = True
-            return keys
+        keys = []
+        for one in found:
+            if isinstance(one, Report):
+                self.releases.hear(one, now)
+            else:
+                keys.append(one)
+        return keys
 
-    def went_on(self) -> bool:
+    def went_on(self, now: float) -> bool:
         """Say, once, that the process was stopped and went on: nobody saw which keys were let go."""
-        before = self._resumed
+        if self._resumed == self.terminal.resumed:
+            return False
         self._resumed = self.terminal.resumed
-        return self._resumed != before
+        self.releases.ask(now)
+        return True
 
-    def suspend(self) -> None:
+    def suspend(self, now: float) -> None:
         """Stop the process, and return when it goes on; a key half received is forgotten."""
         self.terminal.suspend()
         self._resumed = self.terminal.resumed
         self._parser = KeyParser()
+        self.releases.ask(now)

@@ -13,6 +13,10 @@ class FakeTerminal:
         self.resumed = 0
         """How often the process was stopped and went on."""
         self.calls: list[str] = []
+        self.said = ""
+        """What it was asked for and told to change."""
+        self.answers = False
+        """It answers questions, so whoever asks may wait."""
 
     def read(self) -> bytes:
         if self.gone:
@@ -23,6 +27,16 @@ class FakeTerminal:
 
     def fileno(self) -> int:
         return 7
+
+    def say(self, text: str) -> bool:
+        self.said += text
+        return self.answers
+
+    def switch_on(self, on: str, off: str) -> bool:
+        if on in self.said:
+            return False
+        self.say(on)
+        return True
 
     def redraw(self) -> None:
         self.calls.append("redraw")

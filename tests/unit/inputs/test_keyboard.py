@@ -1,45 +1,16 @@
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from unit.inputs.typist import Typist
 
-from zteleop.control.stick import Speeds, Stick, to_pwm
+from zteleop.control.stick import Speeds, Stick
 from zteleop.errors import ConfigError
 from zteleop.inputs import Wish
 from zteleop.inputs.held_keys import FIRST, REPEATING
-from zteleop.inputs.keyboard import Keyboard
 from zteleop.messages import Channel, Vehicle
-from zteleop.testing import FakeTerminal
 
 DELETE = b"\x7f"
 UP, DOWN, RIGHT, LEFT = b"\x1b[A", b"\x1b[B", b"\x1b[C", b"\x1b[D"
-
-
-class Typist:
-    def __init__(self, drive: str, vehicle: Vehicle | None, **settings: object) -> None:
-        self.terminal = FakeTerminal()
-        self.vehicle = vehicle
-        self.keyboard = Keyboard(drive, terminal=self.terminal, **settings)
-        if vehicle:
-            self.keyboard.fit(vehicle)
-        self.now = 100.0
-
-    def wish(self) -> Wish | None:
-        """Take the wish, as whoever passes it on does."""
-        wish, self.keyboard.wish = self.keyboard.wish, None
-        return wish
-
-    def type(self, data: bytes, after: float = 0.0) -> bool:
-        self.now += after
-        self.terminal.typed = data
-        return self.keyboard.read(self.now)
-
-    def stick(self, after: float = 0.0) -> Stick:
-        self.now += after
-        return self.keyboard.stick(self.now)
-
-    def ticks(self) -> tuple[int, int] | None:
-        pwm = to_pwm(self.stick(), self.vehicle)
-        return pwm and (pwm.steering_ticks, pwm.throttle_ticks)
 
 
 @pytest.fixture

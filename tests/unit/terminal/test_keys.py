@@ -2,11 +2,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from zteleop.terminal.keys import ESCAPE_WAIT, KeyParser, sequence_name
+from zteleop.terminal.keys import ESCAPE_WAIT, Key, KeyParser, Report, meaning
 
 
 def keys(data: bytes) -> list[str]:
-    return KeyParser().feed(data)
+    return names(KeyParser().feed(data))
+
+
+def names(found: list[Key | Report]) -> list[str]:
+    return [one.name for one in found if isinstance(one, Key)]
 
 
 @pytest.mark.parametrize(
@@ -45,7 +49,7 @@ def test_shift_and_locks_keep_the_name_and_ctrl_and_alt_change_it(data, expected
         b"\x1b[I\x1b[O",
         b"\x1b[<0;10;20M",
         b"\x1b[Mwas",
-        b"\x1b[1;1:3A",
+        b"\x1b[1;1:4A",
         b"\x1b]11;rgb:ffff/wasd/0000\x07",
         b"\x1bPwasd\x1b\\",
         b"\x1b[57441u",
@@ -70,22 +74,22 @@ def test_escape_alone_is_a_key_once_nothing_followed():
     parser = KeyParser()
     assert parser.feed(b"\x1b", now=1.0) == []
     assert parser.flush(1.0 + ESCAPE_WAIT / 2) == []
-    assert parser.flush(1.0 + 2 * ESCAPE_WAIT) == ["escape"]
-    assert parser.feed(b"[A", now=1.2) == ["[", "A"]
+    assert parser.flush(1.0 + 2 * ESCAPE_WAIT) == [Key("escape")]
+    assert names(parser.feed(b"[A", now=1.2)) == ["[", "A"]
 
 
 def test_a_sequence_cut_off_for_good_does_not_eat_the_next_key():
     parser = KeyParser()
     parser.feed(b"\x1b]", now=1.0)
     assert parser.flush(2.0) == []
-    assert parser.feed(b"q", now=2.0) == ["q"]
+    assert parser.feed(b"q", now=2.0) == [Key("q")]
 
 
 def test_a_paste_that_stalls_stays_a_paste():
     parser = KeyParser()
     parser.feed(b"\x1b[200~ww", now=1.0)
     assert parser.flush(60.0) == []
-    assert parser.feed(b"ww\x1b[201~x", now=60.0) == ["x"]
+    assert parser.feed(b"ww\x1b[201~x", now=60.0) == [Key("x")]
 
 
 def test_bytes_that_are_no_text_harm_nothing():
@@ -123,10 +127,61 @@ def test_every_split_gives_the_same_keys(data, cuts):
     for cut in [*sorted(cuts), len(data)]:
         split += parser.feed(data[start:cut])
         start = max(start, cut)
-    assert split == keys(data)
+    assert split == KeyParser().feed(data)
 
 
 @given(st.text(max_size=40), st.characters())
 def test_any_sequence_has_a_name_or_none(parameters, final):
-    name = sequence_name(parameters, final)
-    assert name is None or name
+    found = meaning(parameters, final)
+    assert found is None or isinstance(found, Report) or found.name
+
+
+@pytest.mark.parametrize(
+    ("data", "key"),
+    [
+        (b"\x1b[119u", Key("w", "press", "w")),
+        (b"\x1b[119;1:2u", Key("w", "repeat", "w")),
+        (b"\x1b[119;1:3u", Key("w", "release", "w")),
+        (b"\x1b[1;1:3A", Key("up", "release", "up")),
+        (b"\x1b[127;1:2u", Key("backspace", "repeat", "backspace")),
+        (b"\x1b[99;5:1u", Key("ctrl-c", "press", "c")),
+        (b"\x1b[119;5:3u", Key("ctrl-w", "release", "w")),
+        (b"\x1b[57419;1:3u", Key("up", "release", "up")),
+    ],
+)
+def test_a_terminal_may_tell_what_happened_to_a_key(data, key):
+    assert KeyParser().feed(data) == [key]
+
+
+@pytest.mark.parametrize(
+    ("data", "name"),
+    [
+        (b"\x1b[1094::119u", "w"),  # Cyrillic
+        (b"\x1b[122::119u", "w"),  # AZERTY
+        (b"\x1b[119:87;2u", "w"),
+        (b"\x1b[47:63;2u", "?"),
+        (b"\x1b[223:63:45;2u", "?"),  # German
+        (b"\x1b[119;9u", "super-w"),
+    ],
+)
+def test_a_key_is_called_by_its_place_and_a_sign_by_what_shift_makes_of_it(data, name):
+    assert keys(data) == [name]
+
+
+@pytest.mark.parametrize(
+    ("data", "report"),
+    [
+        (b"\x1b[?62;4c", Report("attributes")),
+        (b"\x1b[?15u", Report("protocol", 15)),
+        (b"\x1b[?0u", Report("protocol", 0)),
+        (b"\x1b[I", Report("focus", 1)),
+        (b"\x1b[O", Report("focus", 0)),
+    ],
+)
+def test_what_a_terminal_says_of_itself_is_told(data, report):
+    assert KeyParser().feed(data) == [report]
+
+
+@pytest.mark.parametrize("data", [b"\x1b[?u", b"\x1b[?1;2u", b"\x1b[1I", b"\x1b[?25h", b"\x1b[?\xb2u"])
+def test_what_is_no_report_is_none(data):
+    assert not any(isinstance(one, Report) for one in KeyParser().feed(data))

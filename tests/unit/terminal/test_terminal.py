@@ -160,6 +160,36 @@ def test_a_terminal_that_takes_nothing_in_skips_frames_and_then_shows_the_newest
         assert shown[:2] == ["newest", ""]
 
 
+def test_a_dumb_terminal_is_asked_nothing(tty, monkeypatch):
+    monkeypatch.setenv("TERM", "dumb")
+    with Terminal(tty.slave) as terminal:
+        assert not terminal.say("\x1b[c")
+        assert tty.output() == ""
+
+
+def test_what_was_switched_on_is_switched_off_once_before_the_screen_is_left(tty):
+    with Terminal(tty.slave) as terminal:
+        tty.output()
+        assert terminal.switch_on("\x1b[>15u", "\x1b[<u")
+        assert not terminal.switch_on("\x1b[>15u", "\x1b[<u")
+        assert terminal.say("\x1b[c")
+        assert tty.output() == "\x1b[>15u\x1b[c"
+    assert tty.output() == "\x1b[<u" + LEAVE
+
+
+def test_a_question_waits_behind_a_frame_that_is_on_its_way(tty):
+    with Terminal(tty.slave) as terminal:
+        while not terminal._pending:  # nobody reads at the other end
+            terminal.redraw()
+            terminal.draw(["y" * 40] * 10)
+        terminal.say("\x1b[c")
+        shown = tty.output()
+        terminal.draw([])
+        shown += tty.output()
+    assert shown.count("\x1b[c") == 1
+    assert "y\x1b[c" not in shown.replace("y" * 40, ""), "no line is cut by it"
+
+
 def test_after_a_stop_it_is_raw_again_and_says_so(tty):
     with Terminal(tty.slave) as terminal:
         raw = tty.modes()

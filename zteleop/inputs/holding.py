@@ -1,0 +1,48 @@
+"""The drive while keys are held: told by the terminal where it tells releases, else guessed by repeats."""
+
+from zteleop.control.stick import Stick
+from zteleop.inputs.down_keys import DownKeys
+from zteleop.inputs.held_keys import HeldKeys
+from zteleop.inputs.levers import Axis
+from zteleop.terminal.keys import Key
+
+
+class Holding:
+    """The keys of one operator, as a stick; `now` in s."""
+
+    def __init__(self) -> None:
+        self.told = False
+        """Releases are told, and a repeat says nothing that was not said."""
+        self._guess = HeldKeys()
+        self._down = DownKeys()
+
+    @property
+    def known(self) -> bool:
+        """Whether a key is down for certain."""
+        return self._down.any
+
+    def press(self, key: Key, axis: Axis, sign: int, now: float) -> None:
+        """Take in a key that drives."""
+        stick_axis = "forward" if axis == "throttle" else "turn"
+        if not self.told:
+            self._guess.press(key.name, stick_axis, sign, now)
+        elif key.event == "press":
+            self._down.press(key.place or key.name, stick_axis, sign, now)
+
+    def release(self, key: Key) -> None:
+        """Take in that a key was let go."""
+        self._down.release(key.place or key.name)
+
+    def clear(self) -> None:
+        """Count every key as let go."""
+        self._guess.clear()
+        self._down.clear()
+
+    def look_away(self, now: float) -> None:
+        """Count every key as let go, and whatever is pressed soon as a key that was down meanwhile."""
+        self.clear()
+        self._down.look_away(now)
+
+    def stick(self, now: float) -> Stick:
+        """Return what the held keys ask for; nobody holds it when none is."""
+        return self._down.stick() if self.told else self._guess.stick(now)
