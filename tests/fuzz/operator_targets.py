@@ -18,7 +18,7 @@ from zteleop.inputs.keyboard import ACTIONS, Keyboard
 from zteleop.inputs.keymap import DIRECTIONS, bindings
 from zteleop.interfaces.values import fill
 from zteleop.messages import MESSAGES
-from zteleop.terminal.keys import KeyParser
+from zteleop.terminal.keys import Key, KeyParser, Report
 from zteleop.testing import FakeTerminal
 from zteleop.text import yaml_text
 
@@ -29,10 +29,10 @@ def keys(data: bytes) -> None:
     """Take a terminal's bytes for keys."""
     parser = KeyParser()
     found = [key for byte in data for key in (*parser.flush(byte / 99), *parser.feed(bytes((byte,)), 0.0))]
-    assert all(isinstance(key, str) and key for key in found)
-    assert found.count("ctrl-c") >= data.count(b"\x03")
+    assert all(isinstance(one, Report) or one.name for one in found)
+    assert found.count(Key("ctrl-c")) >= data.count(b"\x03")
     parser.feed(b"\x03")
-    assert parser.feed(b"q") == ["q"]
+    assert parser.feed(b"q") == [Key("q")]
 
 
 def keyboard(data: bytes) -> None:
@@ -67,7 +67,7 @@ def keymap(data: bytes) -> None:
         assert set(found.values()) <= DRIVE_ACTIONS
         device = Keyboard(keys=wanted, terminal=FakeTerminal())  # type: ignore[arg-type]
         for key in found:
-            device._press(key)
+            device._press(Key(key))
 
 
 def values(data: bytes) -> None:
