@@ -17,6 +17,7 @@ from zteleop.control.stick import Speeds
 from zteleop.drivers import DRIVERS, settings_kind, settings_of
 from zteleop.drivers.simulated import default_path
 from zteleop.errors import ConfigError
+from zteleop.inputs.keymap import bindings
 from zteleop.inputs.levers import Steps
 
 LONGEST = 2**20
@@ -37,6 +38,10 @@ class Config(Struct, frozen=True, forbid_unknown_fields=True):
     """of a full stick, for inputs that drive while held"""
     steps: Steps = Steps()
     """of a key press, for inputs that drive in steps"""
+    keymap: str = "all"
+    """of the keyboard; `zteleop keyboard --help` names them"""
+    keys: dict[str, str] = {}
+    """key -> action, beside those of the keymap"""
     journal: Literal["acts", "all", "off"] = "acts"
     """what a robot keeps of the commands on its disk: who acted, every one, nothing"""
     blackbox: bool = True
@@ -47,6 +52,7 @@ class Config(Struct, frozen=True, forbid_unknown_fields=True):
     def __post_init__(self) -> None:
         if self.robot is not None:
             robot_name(self.robot)
+        bindings(self.keys, self.keymap)
         for source in self.drive.sources:
             chunk(source, "a source")
         for name, settings in {self.driver: {}, **self.drivers}.items():

@@ -60,7 +60,7 @@ def keymap(data: bytes) -> None:
         pairs = said.items() if isinstance(said, dict) else ()
         wanted = {str(key): str(action) for key, action in pairs}
         try:
-            found = bindings(wanted, DRIVE_ACTIONS)
+            found = bindings(wanted)
         except ConfigError as error:
             safe(printable(str(error)))
             return

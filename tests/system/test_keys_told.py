@@ -1,5 +1,6 @@
 """`zteleop keyboard` in a terminal that tells when a key is let go."""
 
+import signal
 from collections.abc import Iterator
 
 import pytest
@@ -80,4 +81,34 @@ def test_whoever_says_how_drives_so(rig: Rig) -> None:
     keyboard.key("w", "release")
     until(lambda: rig.ticks == (375, 374), "a lever that stays")
     keyboard.key("q")
+    assert keyboard.ends() == 0
+
+
+def test_whoever_is_killed_leaves_the_robot_at_rest_and_the_terminal_as_found(rig: Rig) -> None:
+    keyboard = rig.keyboard(tells_releases=True)
+    keyboard.shows("hold drive", "idle, nobody operates", "release told")
+    keyboard.key("w")
+    until(lambda: rig.ticks[1] > NEUTRAL[1] + 5, "throttle")
+    keyboard.signal(signal.SIGKILL)
+    assert keyboard.ends() == -signal.SIGKILL
+    until(lambda: rig.ticks == NEUTRAL, "rest")
+    until(lambda: keyboard.flags == [0], "the protocol switched off")
+    keyboard.is_as_found()
+
+
+def test_a_map_and_keys_of_ones_own(rig: Rig) -> None:
+    rig.set('keymap = "donkey"\nkeys = { f1 = "forward", q = "nothing", z = "quit" }')
+    keyboard = rig.keyboard()
+    keyboard.shows("nobody operates", "backspace STOP   arrows drive   space throttle off   z quit")
+    keyboard.type("\x1bOP" + "wq")
+    until(lambda: rig.ticks == (375, 374), "F1 on the chip, and nothing of w")
+    keyboard.type("z")
+    assert keyboard.ends() == 0
+    keyboard = rig.keyboard("--keymap", "twist", "--drive", "step")
+    keyboard.shows("nobody operates", "ij,l drive", "z quit")
+    keyboard.type("o")
+    until(lambda: rig.ticks == (360, 374), "both axes by one key")
+    keyboard.type("?")
+    keyboard.shows("forward and right, a step each press", "any other")
+    keyboard.type("\x03")
     assert keyboard.ends() == 0

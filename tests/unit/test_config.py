@@ -337,3 +337,16 @@ def test_half_of_a_file_is_no_config(home: Path) -> None:
     write(home / "here/config.toml", "robot = 'archangel'\n" + "#" * config.LONGEST + "\ndriver = 'pca9685'")
     with pytest.raises(ConfigError, match="expected at most"):
         load()
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (b'keymap = "donky"', "no keymap 'donky'; did you mean donkey?"),
+        (b'[keys]\nf1 = "quti"', "key 'f1': no action 'quti'; did you mean quit?"),
+    ],
+)
+def test_a_keymap_is_looked_up_when_the_file_is_read(text, words):
+    with pytest.raises(ConfigError) as error:
+        parse(text, "config.toml")
+    assert words in str(error.value)

@@ -16,8 +16,7 @@ from zteleop.chaos.fault import Fault
 from zteleop.cli import VERBS, main
 from zteleop.control.stick import Speeds, Stick
 from zteleop.drivers import DRIVERS, PulseDriver, open_driver
-from zteleop.inputs.keyboard import ACTIONS
-from zteleop.inputs.keymap import KEYS, bindings
+from zteleop.inputs.keymap import KEYMAPS, bindings
 from zteleop.messages import Message, Vehicle
 from zteleop.nodes.teleop import Teleop
 from zteleop.processes import PROGRAMS, Program
@@ -59,8 +58,8 @@ def test_a_verb(room: Room, monkeypatch: pytest.MonkeyPatch, capsys: pytest.Capt
 
 
 def test_a_key(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(KEYS, "h", "forward")
-    assert bindings({}, ACTIONS)["h"] == "forward"
+    monkeypatch.setitem(KEYMAPS["all"], "h", "forward")
+    assert bindings({})["h"] == "forward"
 
 
 class Metronome:

@@ -2,6 +2,8 @@ import argparse
 from collections import deque
 from collections.abc import Callable, Sequence
 
+import msgspec
+
 from zteleop.bus import clock
 from zteleop.bus.lane.call import Call
 from zteleop.bus.node import Node
@@ -11,8 +13,9 @@ from zteleop.control.report import to_vehicle
 from zteleop.drivers import tick_us
 from zteleop.inputs import Drive
 from zteleop.inputs.keyboard import Keyboard
-from zteleop.inputs.keymap import KEYS, describe
+from zteleop.inputs.keymap import KEYMAPS, describe, keymap
 from zteleop.inputs.levers import Steps
+from zteleop.machine.guardian import guarded
 from zteleop.messages import Vehicle
 from zteleop.nodes.teleop import Teleop
 from zteleop.screen.dashboard import Dashboard
@@ -32,6 +35,7 @@ HEARD_WITHIN = 0.6
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add(parser)
     parser.epilog = f"{key_table()}\n\n{parser.epilog}"
+    parser.add_argument("--keymap", choices=[*KEYMAPS], help="which keys do what (default: all)")
     parser.add_argument(
         "--drive",
         choices=["step", "hold"],
@@ -40,15 +44,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def key_table() -> str:
-    """Return what each key does, unless the config file says otherwise."""
-    told = describe(KEYS)
+def key_table(name: str = "all") -> str:
+    """Return what each key of a map does."""
+    told = describe(keymap(name))
     room = max(len(keys) for keys, _ in told) + 2
-    return "\n  ".join(["keys:", *(f"{keys:<{room}}{does}" for keys, does in told)])
+    return "\n  ".join([f"keys of {name}:", *(f"{keys:<{room}}{does}" for keys, does in told)])
 
 
 def run(arguments: argparse.Namespace) -> None:
     settings = _options.load(arguments)
+    if arguments.keymap:
+        settings = msgspec.structs.replace(settings, keymap=arguments.keymap)
     with _options.join("keyboard", settings) as node:
         drive_with_keys(node, settings, arguments.drive)
 
@@ -67,7 +73,9 @@ def drive_with_keys(
     """
     vehicle = find_vehicle(node, settings)
     node.log.show = lambda line: None  # nothing prints over the screen: it shows the log itself
-    keyboard = Keyboard(speeds=settings.speeds, steps=settings.steps)
+    keyboard = Keyboard(
+        speeds=settings.speeds, steps=settings.steps, keymap=settings.keymap, keys=settings.keys
+    )
     paint = painter(keyboard, node.robot or "", settings.steps, floor)
 
     def show(view: View) -> None:
@@ -77,7 +85,8 @@ def drive_with_keys(
         else:
             paint(view)
 
-    with keyboard, Call(settings.bus) as lane:
+    terminal = keyboard.terminal
+    with guarded(terminal.name, terminal.farewell), keyboard, Call(settings.bus) as lane:
         keyboard.settle(clock.now)
         steps = vehicle.takes_ticks and not keyboard.tells_releases
         keyboard.drive = drive or ("step" if steps else "hold")
@@ -116,6 +125,7 @@ def painter(keyboard: Keyboard, robot: str, steps: Steps, floor: Sequence[Mark])
             steps=steps,
             floor=floor,
             certainty=keyboard.certainty,
+            bound=keyboard.bound,
             keys=keyboard.help,
         )
         terminal.draw(render(dashboard, columns, rows, unicode=terminal.unicode, color=terminal.color))

@@ -3,7 +3,11 @@
 Only the newest key repeats, so its repeats speak for the key of the other axis that was down before it.
 """
 
+from collections.abc import Mapping
+
 from zteleop.control.stick import Stick
+from zteleop.inputs.keymap import Moves
+from zteleop.inputs.levers import Axis
 
 FIRST = 0.6
 """s that a first press counts, until repeats may begin."""
@@ -14,10 +18,10 @@ REPEATING = 0.1
 
 
 class HeldKeys:
-    """What is held now; axes are `forward` and `turn`, signs 1 and -1 (REP-103)."""
+    """What is held now."""
 
     def __init__(self) -> None:
-        self._axes: dict[str, int] = {}
+        self._axes: dict[Axis, int] = {}
         self._newest = ""
         self._count = 0
         self._seen = 0.0
@@ -29,7 +33,7 @@ class HeldKeys:
         """s that a repeat counts, by the interval measured."""
         return min(LONGEST_GAP, max(SHORTEST_GAP, 3 * self._interval))
 
-    def press(self, key: str, axis: str, sign: int, now: float) -> None:
+    def press(self, key: str, moves: Moves, now: float) -> None:
         """Take in a press or a repeat; the last pressed of one axis wins."""
         alive = now < self._until
         if not alive:
@@ -38,7 +42,7 @@ class HeldKeys:
             self._repeat(now)
         else:
             self._newest, self._count, self._until = key, 0, now + FIRST
-        self._axes[axis] = sign
+        self._axes.update(moves)
         self._seen = now
 
     def clear(self) -> None:
@@ -50,7 +54,7 @@ class HeldKeys:
         """Return what the held keys ask for; nobody holds it when none is."""
         if now >= self._until:
             return Stick()
-        return Stick(float(self._axes.get("forward", 0)), float(self._axes.get("turn", 0)), deadman=True)
+        return pushed(self._axes)
 
     def _repeat(self, now: float) -> None:
         interval, self._count = now - self._seen, self._count + 1
@@ -59,6 +63,11 @@ class HeldKeys:
         lapse = now + self.gap
         # the first press's allowance ends as soon as repeats are there to speak for the key
         self._until = lapse if self._count > 1 and interval <= REPEATING else max(self._until, lapse)
+
+
+def pushed(axes: Mapping[Axis, int]) -> Stick:
+    """Return the stick of somebody who pushes these axes all the way."""
+    return Stick(float(axes.get("throttle", 0)), float(axes.get("steering", 0)), deadman=True)
 
 
 class Block:

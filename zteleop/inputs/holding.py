@@ -3,7 +3,7 @@
 from zteleop.control.stick import Stick
 from zteleop.inputs.down_keys import DownKeys
 from zteleop.inputs.held_keys import HeldKeys
-from zteleop.inputs.levers import Axis
+from zteleop.inputs.keymap import Moves
 from zteleop.terminal.keys import Key
 
 
@@ -21,13 +21,12 @@ class Holding:
         """Whether a key is down for certain."""
         return self._down.any
 
-    def press(self, key: Key, axis: Axis, sign: int, now: float) -> None:
+    def press(self, key: Key, moves: Moves, now: float) -> None:
         """Take in a key that drives."""
-        stick_axis = "forward" if axis == "throttle" else "turn"
         if not self.told:
-            self._guess.press(key.name, stick_axis, sign, now)
+            self._guess.press(key.name, moves, now)
         elif key.event == "press":
-            self._down.press(key.place or key.name, stick_axis, sign, now)
+            self._down.press(key.place or key.name, moves, now)
 
     def release(self, key: Key) -> None:
         """Take in that a key was let go."""

@@ -9,8 +9,8 @@ from zteleop.errors import DeviceError
 from zteleop.inputs import Wish
 from zteleop.inputs.held_keys import FIRST, REPEATING, Block
 from zteleop.inputs.holding import Holding
-from zteleop.inputs.keymap import DIRECTIONS, bindings, describe
-from zteleop.inputs.levers import Axis, Levers, Steps
+from zteleop.inputs.keymap import DIRECTIONS, OTHER, Moves, bindings, describe, first_keys
+from zteleop.inputs.levers import Levers, Steps
 from zteleop.inputs.speed_keys import FASTER, SLOWER, SpeedKeys
 from zteleop.inputs.wishes import Wishes
 from zteleop.messages import Vehicle
@@ -31,7 +31,7 @@ class Keyboard:
 
     A key that is held is known by its release where the terminal tells it, else by its repeats.
 
-    Raises DeviceError without a terminal, ConfigError for a key bound to no action.
+    Raises DeviceError without a terminal, ConfigError for a key bound to no action or a keymap there is not.
     """
 
     def __init__(
@@ -40,6 +40,7 @@ class Keyboard:
         *,
         speeds: Speeds | None = None,
         steps: Steps | None = None,
+        keymap: str = "all",
         keys: Mapping[str, str] | None = None,
         terminal: "Terminal | None" = None,
     ) -> None:
@@ -49,7 +50,7 @@ class Keyboard:
         self.suspending = False
         """Ctrl-Z was pressed: publish neutral, then call `suspend`."""
         self.idle_limit = IDLE_LIMIT
-        self._bindings = bindings(keys or {}, {*ACTIONS, *DIRECTIONS})
+        self._bindings = bindings(keys or {}, keymap)
         self._typed = Typed(terminal or open_terminal())
         self._speed_keys = SpeedKeys(speeds or Speeds())
         self._wishes = Wishes()
@@ -85,6 +86,11 @@ class Keyboard:
     @wish.setter
     def wish(self, wish: Wish | None) -> None:
         self._wishes.newest = wish
+
+    @property
+    def bound(self) -> dict[str, str]:
+        """For each action the key to name where there is room for one."""
+        return first_keys(self._bindings)
 
     @property
     def help(self) -> list[tuple[str, str]]:
@@ -186,23 +192,25 @@ class Keyboard:
                 self.neutral()
 
     def _press(self, key: Key) -> None:
-        action = self._bindings.get(key.name) or self._bindings.get(key.name.lower(), "")
+        names = (key.name, key.name.lower(), OTHER)
+        action = next((self._bindings[name] for name in names if name in self._bindings), "")
         if (self.finished or self.suspending) and action != "stop robot":
             return
         if action in DIRECTIONS:
-            self._drive(key, *DIRECTIONS[action])
+            self._drive(key, DIRECTIONS[action])
         elif action:
             ACTIONS[action](self)
 
-    def _drive(self, key: Key, axis: Axis, sign: int) -> None:
+    def _drive(self, key: Key, moves: Moves) -> None:
         passes = self._block.passes(key.name, self._now)
         is_known_press = self.tells_releases and key.event == "press"
         if not (passes or is_known_press) or self.wish is Wish.STOP:
             return
-        if self.drive == "step":
+        if self.drive == "hold":
+            self._holding.press(key, moves, self._now)
+            return
+        for axis, sign in moves:
             self._levers.press(axis, sign)
-        else:
-            self._holding.press(key, axis, sign, self._now)
 
     def neutral(self) -> None:
         """Bring both axes to neutral."""
@@ -241,21 +249,9 @@ class Keyboard:
         """Show what each key does, or hide it."""
         self._wishes.help = not self._wishes.help
 
-    def faster(self) -> None:
-        """Raise the forward speed."""
-        self._speed_keys.scale(forward=FASTER)
-
-    def slower(self) -> None:
-        """Lower the forward speed."""
-        self._speed_keys.scale(forward=SLOWER)
-
-    def turn_faster(self) -> None:
-        """Raise the turning speed."""
-        self._speed_keys.scale(turn=FASTER)
-
-    def turn_slower(self) -> None:
-        """Lower the turning speed."""
-        self._speed_keys.scale(turn=SLOWER)
+    def scale(self, forward: float = 1.0, turn: float = 1.0) -> None:
+        """Change what a full stick means by these factors."""
+        self._speed_keys.scale(forward, turn)
 
 
 ACTIONS: dict[str, Callable[[Keyboard], None]] = {
@@ -263,10 +259,13 @@ ACTIONS: dict[str, Callable[[Keyboard], None]] = {
     "neutral": Keyboard.neutral,
     "stop robot": Keyboard.stop_robot,
     "release robot": Keyboard.release_robot,
-    "faster": Keyboard.faster,
-    "slower": Keyboard.slower,
-    "turn faster": Keyboard.turn_faster,
-    "turn slower": Keyboard.turn_slower,
+    "faster": lambda keyboard: keyboard.scale(forward=FASTER),
+    "slower": lambda keyboard: keyboard.scale(forward=SLOWER),
+    "turn faster": lambda keyboard: keyboard.scale(turn=FASTER),
+    "turn slower": lambda keyboard: keyboard.scale(turn=SLOWER),
+    "all faster": lambda keyboard: keyboard.scale(forward=FASTER, turn=FASTER),
+    "all slower": lambda keyboard: keyboard.scale(forward=SLOWER, turn=SLOWER),
+    "nothing": lambda keyboard: None,
     "quit": Keyboard.quit,
     "suspend": Keyboard.ask_to_suspend,
     "redraw": Keyboard.redraw,

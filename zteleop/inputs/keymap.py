@@ -1,57 +1,102 @@
-"""Which key does what; the configuration adds to it."""
+"""Which key does what: maps by name, to which the configuration adds."""
 
-from collections.abc import Collection, Mapping
-from typing import Literal
+from collections.abc import Mapping
 
-from zteleop.errors import ConfigError
+from zteleop.errors import ConfigError, nearest
+from zteleop.inputs import Drive
 from zteleop.inputs.levers import Axis
 
-KEYS: dict[str, str] = {
-    **{"up": "forward", "down": "reverse", "left": "left", "right": "right"},
-    **{"w": "forward", "s": "reverse", "a": "left", "d": "right"},
-    **{"space": "stop", "x": "neutral"},
-    **{"backspace": "stop robot", "r": "release robot"},
-    **{"u": "faster", "j": "slower", "i": "turn faster", "k": "turn slower"},
-    **{"q": "quit", "ctrl-c": "quit", "ctrl-z": "suspend", "ctrl-l": "redraw", "?": "help"},
+Moves = tuple[tuple[Axis, int], ...]
+"""Which way a key pushes each axis; 1 is left, or forward."""
+DIRECTIONS: dict[str, Moves] = {
+    "forward": (("throttle", 1),),
+    "reverse": (("throttle", -1),),
+    "left": (("steering", 1),),
+    "right": (("steering", -1),),
+    "forward left": (("throttle", 1), ("steering", 1)),
+    "forward right": (("throttle", 1), ("steering", -1)),
+    "reverse left": (("throttle", -1), ("steering", 1)),
+    "reverse right": (("throttle", -1), ("steering", -1)),
 }
 DOES: dict[str, str] = {
     **{"forward": "forward", "reverse": "reverse", "left": "to the left", "right": "to the right"},
+    **{"forward left": "forward and left", "forward right": "forward and right"},
+    **{"reverse left": "reverse and left", "reverse right": "reverse and right"},
     **{"stop": "throttle off", "neutral": "throttle off, wheels straight"},
     **{"stop robot": "STOP the robot, until it is released", "release robot": "release a stop"},
     **{"faster": "faster, by a tenth", "slower": "slower"},
     **{"turn faster": "turn faster", "turn slower": "turn slower"},
+    **{"all faster": "drive and turn faster", "all slower": "drive and turn slower"},
     **{"quit": "neutral, and quit", "suspend": "neutral, and back to the shell; fg goes on"},
     **{"redraw": "draw the screen anew", "help": "show these keys, or hide them"},
+    "nothing": "nothing",
 }
 """What each action does, in words."""
-DIRECTIONS: dict[str, tuple[Axis, int]] = {
-    "forward": ("throttle", 1),
-    "reverse": ("throttle", -1),
-    "left": ("steering", 1),
-    "right": ("steering", -1),
+HOW: dict[Drive, str] = {"step": ", a step each press", "hold": ", while it is held"}
+SPEEDS = {"faster", "slower", "turn faster", "turn slower", "all faster", "all slower"}
+"""Of a full stick; levers know none."""
+OTHER = "other"
+"""In a map, every key that is not in it."""
+
+ARROWS = {"up": "forward", "down": "reverse", "left": "left", "right": "right"}
+WASD = {"w": "forward", "s": "reverse", "a": "left", "d": "right"}
+FASTER = {"u": "faster", "j": "slower", "i": "turn faster", "k": "turn slower"}
+REST = {"space": "stop", "x": "neutral"}
+ALWAYS = {
+    **{"backspace": "stop robot", "r": "release robot"},
+    **{"ctrl-c": "quit", "ctrl-z": "suspend", "ctrl-l": "redraw", "?": "help"},
+}
+QUIT = {"q": "quit"}
+KEYMAPS: dict[str, dict[str, str]] = {
+    "all": {**ARROWS, **WASD, **REST, **FASTER, **QUIT, **ALWAYS},
+    "arrows": {**ARROWS, **REST, **FASTER, **QUIT, **ALWAYS},
+    "wasd": {**WASD, **REST, **FASTER, **QUIT, **ALWAYS},
+    "donkey": {**ARROWS, "space": "stop", **QUIT, **ALWAYS},  # the Donkeycar nodes
+    "course": {**WASD, **FASTER, **QUIT, **ALWAYS, OTHER: "neutral"},  # the ROS 2 course on the Create 3
+    "twist": {  # ROS' teleop_twist_keyboard; backwards it turns the robot, not the wheels, to that side
+        **{"u": "forward left", "i": "forward", "o": "forward right"},
+        **{"j": "left", "k": "neutral", "l": "right"},
+        **{"m": "reverse right", ",": "reverse", ".": "reverse left"},
+        **{"q": "all faster", "w": "faster", "e": "turn faster"},
+        **{"z": "all slower", "x": "slower", "c": "turn slower"},
+        **ALWAYS,
+        OTHER: "neutral",
+    },
 }
 
-HOW = {"step": ", a step each press", "hold": ", while it is held"}
-SPEEDS = {"faster", "slower", "turn faster", "turn slower"}
-"""Of a full stick; levers know none."""
+
+def keymap(name: str) -> dict[str, str]:
+    """Return a map that comes along; raises ConfigError with the nearest name."""
+    if name not in KEYMAPS:
+        raise ConfigError(f"no keymap {name!r}; {nearest(name, KEYMAPS)}")
+    return KEYMAPS[name]
 
 
-def bindings(keys: Mapping[str, str], actions: Collection[str]) -> dict[str, str]:
-    """Return the keys bound here beside the usual ones; ConfigError for an action there is not."""
+def bindings(keys: Mapping[str, str], name: str = "all") -> dict[str, str]:
+    """Return the keys bound here beside those of a map; raises ConfigError for an action there is not."""
     for key, action in keys.items():
-        if action not in actions:
-            raise ConfigError(
-                f"key {key!r} is bound to {action!r}; expected one of {', '.join(sorted(actions))}"
-            )
-    return {**KEYS, **keys}
+        if action not in DOES:
+            raise ConfigError(f"key {key!r}: no action {action!r}; {nearest(action, DOES)}")
+    found = {**keymap(name), **keys}
+    if found["ctrl-c"] != "quit":
+        raise ConfigError(f"key 'ctrl-c' quits, whatever else does; found {found['ctrl-c']!r}")
+    if "stop robot" not in found.values():
+        raise ConfigError("no key stops the robot; bind one to 'stop robot'")
+    return found
 
 
-def describe(keys: Mapping[str, str], drive: Literal["step", "hold"] | None = None) -> list[tuple[str, str]]:
+def describe(keys: Mapping[str, str], drive: Drive | None = None) -> list[tuple[str, str]]:
     """Return the keys of each action and what they do, in the order of `DOES`, when they drive so."""
     how = HOW[drive] if drive else ""
     told = []
     for action, does in DOES.items():
-        bound = [key for key, act in keys.items() if act == action]
+        bound = [key if key != OTHER else "any other" for key, act in keys.items() if act == action]
         if bound and not (drive == "step" and action in SPEEDS):
             told.append((" ".join(bound), does + (how if action in DIRECTIONS else "")))
     return told
+
+
+def first_keys(keys: Mapping[str, str]) -> dict[str, str]:
+    """Return for each action the key to name where there is room for one."""
+    named = sorted((key for key in keys if key != OTHER), key=lambda key: key.startswith("ctrl-"))
+    return {keys[key]: key for key in reversed(named)}

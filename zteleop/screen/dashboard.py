@@ -1,9 +1,10 @@
 """What there is to show, and lines that know their rank: in a small window the last ranks go first."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Literal, NamedTuple
 
 from zteleop.control.stick import Speeds
+from zteleop.inputs.keymap import KEYMAPS, first_keys
 from zteleop.inputs.levers import Steps
 from zteleop.messages import Channel, Vehicle
 from zteleop.screen.top_view import Mark
@@ -12,6 +13,7 @@ from zteleop.terminal.cells import Span
 
 WIDE = 62
 """Columns from which on the lines are laid out as the Donkeycar nodes did."""
+USUAL = first_keys(KEYMAPS["all"])
 LABEL = 10
 """Columns that the name of a line takes; fewer in a small window."""
 
@@ -31,6 +33,8 @@ class Dashboard(NamedTuple):
     """how sure it is which keys are held"""
     floor: Sequence[Mark] = ()
     """lies around the robot"""
+    bound: Mapping[str, str] = USUAL
+    """for each action, its key"""
     keys: Sequence[tuple[str, str]] = ()
     """which, and what each does; shown instead of values and picture where there are any"""
 

@@ -1,22 +1,10 @@
 """What the keys do, and the latest news."""
 
-from collections.abc import Iterable
-
 from zteleop.screen.dashboard import Dashboard, Line, line
 from zteleop.terminal.cells import Span, cut, printable, wrap
 
-STOP, RELEASE, HELP = ("backspace", "STOP"), ("r", "release"), ("?", "keys")
-KEYS = {
-    "step": (("arrows", "drive"), ("space", "throttle off"), ("x", "neutral"), ("q", "quit"), HELP),
-    "hold": (
-        ("arrows", "drive"),
-        ("space", "let go"),
-        ("u/j", "speed"),
-        ("i/k", "turning"),
-        ("q", "quit"),
-        HELP,
-    ),
-}
+STOP = "STOP"
+ARROWS = ["up", "left", "down", "right"]
 
 
 def footer(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
@@ -34,15 +22,43 @@ def note_lines(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
 
 
 def key_lines(d: Dashboard, columns: int) -> list[Line]:
-    stopped = d.seen.status is not None and bool(d.seen.status.stops)
-    keys: Iterable[tuple[str, str]] = [STOP, *([RELEASE] if stopped else []), *KEYS[d.drive]]
-    if d.seen.vehicle is not None and d.seen.vehicle.steers:
-        keys = [(key, does) for key, does in keys if key != "i/k"]
     lines: list[list[Span]] = [[]]
-    for key, does in keys:
+    for key, does in hints(d):
         used = sum(len(span.text) for span in lines[-1])
         if used and used + 3 + len(key) + 1 + len(does) > columns:
             lines.append([])
-        style = "bold" if (key, does) == STOP else "dim"
+        style = "bold" if does == STOP else "dim"
         lines[-1] += [*([Span("   ")] if lines[-1] else []), Span(key, "bold"), Span(f" {does}", style)]
     return [Line(7 if index else 3, spans) for index, spans in enumerate(lines)]
+
+
+def hints(d: Dashboard) -> list[tuple[str, str]]:
+    """Return the keys that matter, the most urgent first, and what they do."""
+    status, vehicle = d.seen.status, d.seen.vehicle
+    directions = [d.bound[action] for action in ("forward", "left", "reverse", "right") if action in d.bound]
+    rest = "stop" if "stop" in d.bound else "neutral"
+    step, turns = d.drive == "step", not (vehicle and vehicle.steers)
+    wanted = [
+        (True, ("stop robot",), STOP),
+        (bool(status and status.stops), ("release robot",), "release"),
+        (True, (), "drive"),
+        (step, ("stop",), "throttle off"),
+        (step, ("neutral",), "neutral"),
+        (not step, (rest,), "let go"),
+        (not step, ("faster", "slower"), "speed"),
+        (not step and turns, ("turn faster", "turn slower"), "turning"),
+        (True, ("quit",), "quit"),
+        (True, ("help",), "keys"),
+    ]
+    return [
+        ("/".join(d.bound[action] for action in actions) if actions else named(directions), does)
+        for is_so, actions, does in wanted
+        if is_so and d.bound.keys() >= {*actions}
+    ]
+
+
+def named(directions: list[str]) -> str:
+    """Return four keys in a word."""
+    if directions == ARROWS:
+        return "arrows"
+    return ("/" if any(len(key) > 1 for key in directions) else "").join(directions)

@@ -14,6 +14,7 @@ from typing import Any, Self
 from zteleop.errors import DeviceError
 from zteleop.terminal.capabilities import speaks_unicode, wants_color
 from zteleop.terminal.frames import changes, one_line
+from zteleop.terminal.releases import OFF
 
 ENTER = "\x1b[?1049h\x1b[?25l\x1b[?2004h"
 LEAVE = "\x1b[?2026l\x1b[?2004l\x1b[0m\x1b[?25h\x1b[?1049l"
@@ -31,7 +32,7 @@ class Terminal:
     """
 
     def __init__(self, fd: int | None = None) -> None:
-        self._name = terminal_name(find_terminal() if fd is None else fd)
+        self.name = terminal_name(find_terminal() if fd is None else fd)
         self._dumb = os.environ.get("TERM", "dumb") in ("", "dumb")
         self.color = wants_color(os.environ)
         self.unicode = speaks_unicode(os.environ, getattr(sys.stdout, "encoding", None))
@@ -51,10 +52,10 @@ class Terminal:
     def __enter__(self) -> Self:
         # a file of its own: O_NONBLOCK on standard input would be the shell's as well
         try:
-            self._fd = os.open(self._name, os.O_RDWR | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC)
+            self._fd = os.open(self.name, os.O_RDWR | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC)
         except OSError as error:
             raise DeviceError(
-                f"cannot open the terminal {self._name}: {error.strerror}; open a new one"
+                f"cannot open the terminal {self.name}: {error.strerror}; open a new one"
             ) from None
         try:
             self._saved = termios.tcgetattr(self._fd)
@@ -78,6 +79,11 @@ class Terminal:
             self._handlers.clear()
             os.close(self._fd)
             self._fd = -1
+
+    @property
+    def farewell(self) -> str:
+        """What gives back a terminal in which anything may have been changed."""
+        return "\r\n" if self._dumb else OFF + LEAVE
 
     def fileno(self) -> int:
         """Return what turns readable when a key was pressed."""

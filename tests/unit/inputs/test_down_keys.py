@@ -5,13 +5,16 @@ from hypothesis import strategies as st
 from zteleop.control.stick import Stick
 from zteleop.inputs.down_keys import RETURNED, DownKeys
 
-AXES = {"up": ("forward", 1), "down": ("forward", -1), "left": ("turn", 1), "right": ("turn", -1)}
+MOVES = {
+    **{"up": (("throttle", 1),), "down": (("throttle", -1),)},
+    **{"left": (("steering", 1),), "right": (("steering", -1),)},
+}
 
 
 def held(*keys: str) -> DownKeys:
     down = DownKeys()
     for key in keys:
-        down.press(key, *AXES[key], now=1.0)
+        down.press(key, MOVES[key], now=1.0)
     return down
 
 
@@ -37,29 +40,30 @@ def test_after_all_were_let_go_by_a_stop_a_key_must_be_pressed_anew():
     down.clear()
     down.release("up")
     assert down.stick() == Stick()
-    down.press("up", *AXES["up"], now=2.0)
+    down.press("up", MOVES["up"], now=2.0)
     assert down.stick().deadman
 
 
 def test_what_is_pressed_just_after_the_focus_came_back_may_be_old():
     down = held("up")
     down.look_away(5.0)
-    down.press("up", *AXES["up"], now=5.0 + RETURNED * 0.9)
+    down.press("up", MOVES["up"], now=5.0 + RETURNED * 0.9)
     assert not down.any
-    down.press("up", *AXES["up"], now=5.0 + RETURNED * 1.1)
+    down.press("up", MOVES["up"], now=5.0 + RETURNED * 1.1)
     assert down.any
 
 
-@given(st.lists(st.tuples(st.sampled_from([*AXES]), st.booleans()), max_size=40))
+@given(st.lists(st.tuples(st.sampled_from([*MOVES]), st.booleans()), max_size=40))
 def test_it_drives_exactly_while_a_key_is_down(events):
     down, pressed = DownKeys(), list[str]()
     for key, is_press in events:
         pressed = [other for other in pressed if other != key] + ([key] if is_press else [])
         if is_press:
-            down.press(key, *AXES[key], now=1.0)
+            down.press(key, MOVES[key], now=1.0)
         else:
             down.release(key)
         stick = down.stick()
         assert stick.deadman == bool(pressed)
-        for axis, value in (("forward", stick.forward), ("turn", stick.turn)):
-            assert value == next((AXES[key][1] for key in reversed(pressed) if AXES[key][0] == axis), 0)
+        for axis, value in (("throttle", stick.forward), ("steering", stick.turn)):
+            pushes = [sign for key in pressed for pushed, sign in MOVES[key] if pushed == axis]
+            assert value == [0, *pushes][-1]

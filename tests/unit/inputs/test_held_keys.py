@@ -6,11 +6,13 @@ from zteleop.control.stick import Stick
 from zteleop.inputs.held_keys import FIRST, LONGEST_GAP, SHORTEST_GAP, Block, HeldKeys
 
 AXES = {"up": ("forward", 1), "down": ("forward", -1), "left": ("turn", 1), "right": ("turn", -1)}
+PUSHED = {"forward": "throttle", "turn": "steering"}
 
 
 def press(held: HeldKeys, key: str, *times: float) -> None:
     for now in times:
-        held.press(key, *AXES[key], now)
+        axis, sign = AXES[key]
+        held.press(key, ((PUSHED[axis], sign),), now)
 
 
 def repeats(start: float, end: float, delay: float = 0.5, rate: float = 30.0) -> list[float]:

@@ -341,3 +341,38 @@ def test_a_question_mark_shows_what_each_key_does_and_hides_it_again(car, drive)
     assert typist.ticks() is None
     typist.type(b"?")
     assert typist.keyboard.help == []
+
+
+def test_one_key_may_push_both_axes(car):
+    for drive, expected in (("hold", Stick(1.0, -1.0, deadman=True)), ("step", None)):
+        typist = Typist(drive, car, keymap="twist")
+        typist.type(b"o")
+        assert typist.stick() == expected or typist.ticks() == (360, 371)
+        typist.type(b"k", after=0.1)
+        assert typist.stick() == Stick()
+
+
+def test_a_map_may_bind_every_other_key(car):
+    typist = Typist("step", car, keymap="course")
+    typist.type(b"wd")
+    assert typist.ticks() == (360, 371)
+    typist.type(b"\x1b[A")
+    assert typist.ticks() is None, "an arrow is no key of that map"
+    plain = Typist("step", car, keymap="wasd")
+    plain.type(b"w\x1b[A7")
+    assert plain.ticks() == (375, 371)
+
+
+def test_both_speeds_change_by_one_key(car):
+    typist = Typist("hold", car, keymap="twist", speeds=Speeds(0.5, 1.0))
+    typist.type(b"q")
+    assert typist.keyboard.speeds == Speeds(pytest.approx(0.55), pytest.approx(1.1))
+    typist.type(b"z")
+    assert typist.keyboard.speeds == Speeds(pytest.approx(0.495), pytest.approx(0.99))
+
+
+def test_a_key_can_be_unbound(car):
+    typist = Typist("step", car, keys={"w": "nothing"})
+    typist.type(b"w")
+    assert typist.ticks() is None
+    assert typist.keyboard.bound["forward"] == "up"

@@ -2,28 +2,59 @@ import pytest
 
 from zteleop.errors import ConfigError
 from zteleop.inputs.keyboard import ACTIONS
-from zteleop.inputs.keymap import DIRECTIONS, DOES, KEYS, bindings, describe
+from zteleop.inputs.keymap import DIRECTIONS, DOES, KEYMAPS, OTHER, SPEEDS, bindings, describe, first_keys
 
 
-def test_every_key_has_an_action_there_is():
-    assert set(KEYS.values()) <= {*ACTIONS, *DIRECTIONS}
+@pytest.mark.parametrize("name", KEYMAPS)
+def test_every_key_has_an_action_there_is(name):
+    assert set(KEYMAPS[name].values()) <= {*ACTIONS, *DIRECTIONS}
 
 
-def test_the_stop_and_its_release_have_a_key_each():
-    assert [key for key, action in KEYS.items() if action == "stop robot"] == ["backspace"]
-    assert [key for key, action in KEYS.items() if action == "release robot"] == ["r"]
+@pytest.mark.parametrize("name", KEYMAPS)
+def test_the_stop_its_release_and_the_end_are_the_same_in_every_map(name):
+    for key, action in (
+        ("backspace", "stop robot"),
+        ("r", "release robot"),
+        ("ctrl-c", "quit"),
+        ("?", "help"),
+    ):
+        assert KEYMAPS[name][key] == action
 
 
 def test_keys_are_added_to_the_usual_ones():
-    known = bindings({"8": "forward", "w": "stop"}, {"forward", "stop"})
+    known = bindings({"8": "forward", "w": "stop"})
     assert (known["8"], known["w"], known["up"]) == ("forward", "stop", "forward")
+    assert "up" not in bindings({}, "wasd")
 
 
 def test_an_unknown_action_is_refused_with_those_there_are():
-    with pytest.raises(ConfigError, match=r"key 'z' is bound to 'fly'; expected one of forward, stop"):
-        bindings({"z": "fly"}, {"forward", "stop"})
+    with pytest.raises(ConfigError, match=r"key 'z': no action 'quti'; did you mean quit\?"):
+        bindings({"z": "quti"})
+    with pytest.raises(ConfigError, match=r"no keymap 'donky'; did you mean donkey\?"):
+        bindings({}, "donky")
+
+
+@pytest.mark.parametrize(
+    ("keys", "words"),
+    [
+        ({"ctrl-c": "forward"}, "key 'ctrl-c' quits, whatever else does; found 'forward'"),
+        ({"backspace": "nothing"}, "no key stops the robot; bind one to 'stop robot'"),
+    ],
+)
+def test_the_way_out_and_the_stop_are_never_taken_away(keys, words):
+    with pytest.raises(ConfigError, match=words):
+        bindings(keys)
+    assert bindings({"backspace": "nothing", "f1": "stop robot"})["f1"] == "stop robot"
 
 
 def test_every_action_is_told_in_words():
     assert {*DOES} == {*ACTIONS, *DIRECTIONS}
-    assert sorted(" ".join(keys for keys, _ in describe(KEYS)).split()) == sorted(KEYS)
+    keys = KEYMAPS["all"]
+    assert sorted(" ".join(keys for keys, _ in describe(keys)).split()) == sorted(keys)
+    assert ("any other", "throttle off, wheels straight") in describe({OTHER: "neutral"})
+    assert not {does for _, does in describe(keys, "step")} & {DOES[action] for action in SPEEDS}
+
+
+def test_the_first_key_of_an_action_is_the_one_to_name():
+    found = first_keys({"up": "forward", "ctrl-c": "quit", "w": "forward", OTHER: "neutral", "z": "quit"})
+    assert found == {"forward": "up", "quit": "z"}
