@@ -4,17 +4,17 @@ from collections.abc import Callable, Sequence
 
 import msgspec
 
-from zteleop.bus import clock
+from zteleop.bus import clock, presence
 from zteleop.bus.lane.call import Call
 from zteleop.bus.node import Node
 from zteleop.cli import _options
+from zteleop.cli._company import who_is_here
 from zteleop.config import Config
 from zteleop.control.report import to_vehicle
 from zteleop.drivers import tick_us
 from zteleop.inputs import Drive
 from zteleop.inputs.keyboard import Keyboard
 from zteleop.inputs.keymap import KEYMAPS, describe, keymap
-from zteleop.inputs.levers import Steps
 from zteleop.machine.guardian import guarded
 from zteleop.messages import Vehicle
 from zteleop.nodes.teleop import Teleop
@@ -76,7 +76,13 @@ def drive_with_keys(
     keyboard = Keyboard(
         speeds=settings.speeds, steps=settings.steps, keymap=settings.keymap, keys=settings.keys
     )
-    paint = painter(keyboard, node.robot or "", settings.steps, floor)
+    others = "" if node.membership.heard().vehicle else who_is_here(presence.robots(node.membership.session))
+    paint = painter(
+        keyboard,
+        Dashboard(
+            node.robot or "", "step", settings.speeds, others=others, steps=settings.steps, floor=floor
+        ),
+    )
 
     def show(view: View) -> None:
         watch(view)
@@ -106,24 +112,20 @@ def find_vehicle(node: Node, settings: Config) -> Vehicle:
     )
 
 
-def painter(keyboard: Keyboard, robot: str, steps: Steps, floor: Sequence[Mark]) -> Callable[[View], None]:
-    """Return what draws the screen."""
+def painter(keyboard: Keyboard, known: Dashboard) -> Callable[[View], None]:
+    """Return what draws the screen, of what is known from the start and what is seen."""
     trail: deque[tuple[float, float]] = deque(maxlen=TRAIL)
 
     def paint(view: View) -> None:
         follow(trail, view)
         terminal = keyboard.terminal
         columns, rows = terminal.size()
-        left = keyboard.idle_left(view.now)
-        dashboard = Dashboard(
-            robot=robot,
+        dashboard = known._replace(
             drive=keyboard.drive,
             speeds=keyboard.speeds,
             seen=view,
             trail=trail,
-            idle_left=left,
-            steps=steps,
-            floor=floor,
+            idle_left=keyboard.idle_left(view.now),
             certainty=keyboard.certainty,
             bound=keyboard.bound,
             keys=keyboard.help,

@@ -53,8 +53,9 @@ def reasons(d: Dashboard, unicode: bool) -> list[tuple[str, str]]:
     status = d.seen.status
     if status is None:
         robot = printable(d.robot, unicode)
+        others = f" ({printable(d.others, unicode)})" if d.others else ""
         start = f"start `zteleop actuator --robot {robot}`"
-        return [(f"no actuator heard on robot {robot}; {start}, or, if it moves, cut its power", "")]
+        return [(f"no actuator heard on robot {robot}{others}; {start}, or, if it moves, cut its power", "")]
     # The robot's words are for every reader; here a key does it.
     why = (printable(status.why.replace(RELEASE, "r releases it"), unicode), "")
     if d.asks and d.seen.refused:

@@ -46,6 +46,12 @@ def test_without_an_actuator_it_says_what_to_do():
     assert words in f"{shown[1]} {shown[2]}"
 
 
+def test_without_an_actuator_it_says_which_robots_could_have_been_meant():
+    board = dashboard("step", robot="archangle")._replace(others="heard here: archangel")
+    shown = " ".join(texts(heading(board, 80, True))[1:])
+    assert "no actuator heard on robot archangle (heard here: archangel); start" in shown
+
+
 HELD = "another sender drives this source, or did when this one began; let go, and begin anew"
 
 
