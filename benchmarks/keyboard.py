@@ -34,8 +34,8 @@ class Seat:
         self._seen = b""
 
     def first_screen(self) -> float:
-        """Return the seconds until the robot's state stood on the screen."""
-        while b"idle" not in self._seen:
+        """Return the seconds until the screen stood, with the robot on it or not yet."""
+        while b"steering" not in self._seen:
             self.look(1.0)
         return time.monotonic() - self._began
 

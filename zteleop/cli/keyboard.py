@@ -1,5 +1,4 @@
 import argparse
-from collections import deque
 from collections.abc import Callable, Sequence
 
 import msgspec
@@ -9,6 +8,7 @@ from zteleop.bus.lane.call import Call
 from zteleop.bus.node import Node
 from zteleop.cli import _options
 from zteleop.cli._company import who_is_here
+from zteleop.cli._painter import HEARD_WITHIN, Painter
 from zteleop.config import Config
 from zteleop.control.report import to_vehicle
 from zteleop.drivers import tick_us
@@ -19,7 +19,6 @@ from zteleop.machine.guardian import guarded
 from zteleop.messages import Vehicle
 from zteleop.nodes.teleop import Teleop
 from zteleop.screen.dashboard import Dashboard
-from zteleop.screen.render import render
 from zteleop.screen.top_view import Mark
 from zteleop.screen.view import View
 
@@ -27,9 +26,6 @@ EXAMPLES = (
     "zteleop keyboard",
     "zteleop keyboard --robot archangel --drive hold",
 )
-TRAIL = 400
-TRAIL_STEP = 0.05
-HEARD_WITHIN = 0.6
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -71,29 +67,28 @@ def drive_with_keys(
     Return how: unless somebody said so, while keys are held where their release is told, else in steps
     what takes them.
     """
-    vehicle = find_vehicle(node, settings)
     node.log.show = lambda line: None  # nothing prints over the screen: it shows the log itself
     keyboard = Keyboard(
         speeds=settings.speeds, steps=settings.steps, keymap=settings.keymap, keys=settings.keys
     )
-    others = "" if node.membership.heard().vehicle else who_is_here(presence.robots(node.membership.session))
-    paint = painter(
-        keyboard,
-        Dashboard(
-            node.robot or "", "step", settings.speeds, others=others, steps=settings.steps, floor=floor
-        ),
-    )
-
-    def show(view: View) -> None:
-        watch(view)
-        if keyboard.suspending:
-            keyboard.suspend(clock.now())  # its last word is said
-        else:
-            paint(view)
-
+    known = Dashboard(node.robot or "", "step", settings.speeds, steps=settings.steps, floor=floor)
     terminal = keyboard.terminal
     with guarded(terminal.name, terminal.farewell), keyboard, Call(settings.bus) as lane:
         keyboard.settle(clock.now)
+        paint = Painter(keyboard, known)
+        paint(View())
+        vehicle = find_vehicle(node, settings)
+        if not node.membership.heard().vehicle:
+            here = presence.robots(node.membership.session)
+            paint.known = known._replace(others=who_is_here(here))
+
+        def show(view: View) -> None:
+            watch(view)
+            if keyboard.suspending:
+                keyboard.suspend(clock.now())  # its last word is said
+            else:
+                paint(view)
+
         steps = vehicle.takes_ticks and not keyboard.tells_releases
         keyboard.drive = drive or ("step" if steps else "hold")
         Teleop(node, keyboard, "keyboard", vehicle, show, lane).run()
@@ -110,35 +105,3 @@ def find_vehicle(node: Node, settings: Config) -> Vehicle:
     return to_vehicle(
         settings.drive, tick_us(settings.driver, settings.driver_settings(settings.driver, "any"))
     )
-
-
-def painter(keyboard: Keyboard, known: Dashboard) -> Callable[[View], None]:
-    """Return what draws the screen, of what is known from the start and what is seen."""
-    trail: deque[tuple[float, float]] = deque(maxlen=TRAIL)
-
-    def paint(view: View) -> None:
-        follow(trail, view)
-        terminal = keyboard.terminal
-        columns, rows = terminal.size()
-        dashboard = known._replace(
-            drive=keyboard.drive,
-            speeds=keyboard.speeds,
-            seen=view,
-            trail=trail,
-            idle_left=keyboard.idle_left(view.now),
-            certainty=keyboard.certainty,
-            bound=keyboard.bound,
-            keys=keyboard.help,
-        )
-        terminal.draw(render(dashboard, columns, rows, unicode=terminal.unicode, color=terminal.color))
-
-    return paint
-
-
-def follow(trail: deque[tuple[float, float]], view: View) -> None:
-    """Add where the robot is to its trail, when it has moved."""
-    if view.odom is None:
-        return
-    place = view.odom.pose.pose.position
-    if not trail or abs(place.x - trail[-1][0]) + abs(place.y - trail[-1][1]) > TRAIL_STEP:
-        trail.append((place.x, place.y))

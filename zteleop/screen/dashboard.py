@@ -29,6 +29,8 @@ class Dashboard(NamedTuple):
     idle_left: float | None = None
     """s until neutral for want of a key; None when it is neutral already"""
     steps: Steps = Steps()
+    looking: bool = False
+    """whether it is too early to say that the robot is not heard"""
     others: str = ""
     """which robots could have been meant, where this one is not heard"""
     certainty: str = ""

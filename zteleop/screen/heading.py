@@ -34,7 +34,7 @@ def bar(spans: list[Span], columns: int) -> list[Span]:
 
 def state(d: Dashboard, unicode: bool) -> list[Span]:
     """Return what the robot does, in a word."""
-    word = d.seen.status.state if d.seen.status else "no actuator"
+    word = d.seen.status.state if d.seen.status else "looking" if d.looking else "no actuator"
     return [Span(f"{'●' if unicode else '*'} {word}", COLORS.get(word, "yellow"))]
 
 
@@ -51,8 +51,10 @@ def operator(d: Dashboard, unicode: bool) -> str:
 def reasons(d: Dashboard, unicode: bool) -> list[tuple[str, str]]:
     """Return why the robot does what it does, and why not what is asked; each with its style."""
     status = d.seen.status
+    robot = printable(d.robot, unicode)
+    if status is None and d.looking:
+        return [(f"listening for robot {robot}", "")]
     if status is None:
-        robot = printable(d.robot, unicode)
         others = f" ({printable(d.others, unicode)})" if d.others else ""
         start = f"start `zteleop actuator --robot {robot}`"
         return [(f"no actuator heard on robot {robot}{others}; {start}, or, if it moves, cut its power", "")]

@@ -5,7 +5,9 @@ Where the terminal tells a key's place on the keyboard, that names it: W is the 
 """
 
 import codecs
+import re
 from collections.abc import Callable
+from functools import lru_cache
 from typing import Literal, NamedTuple
 
 ESCAPE_WAIT = 0.05
@@ -52,6 +54,10 @@ class Report(NamedTuple):
     """Of the keyboard protocol, its flags; of the focus, whether it is here."""
 
 
+WHOLE = re.compile(rb"\x1b\[(?!200~)([0-9:;]{0,32})([ABCDFHPQRSu~])")
+"""The sequence of a key that came in one piece, as nearly all do; a paste is for the slower way."""
+
+
 class KeyParser:
     """Feed it bytes cut anywhere; the keys are the same."""
 
@@ -66,7 +72,16 @@ class KeyParser:
         """Return the keys and reports these bytes complete; a paste is none."""
         if data:
             self._heard = now
-        return [key for key in map(self._byte, data) if key]
+        found, at = [], 0
+        while at < len(data):
+            whole = WHOLE.match(data, at) if self._state == self._ground else None
+            if whole:
+                self._decoder.reset()
+                at, key = whole.end(), whole_key(whole[1], whole[2])
+            else:
+                at, key = at + 1, self._byte(data[at])
+            found += [key] if key else []
+        return found
 
     def flush(self, now: float) -> list[Key | Report]:
         """Return Escape for an ESC nothing followed in time; forget other sequences left unfinished."""
@@ -163,6 +178,12 @@ class KeyParser:
         if self._sequence == PASTE_END:
             self._go(self._ground)
         return None
+
+
+@lru_cache(1000)
+def whole_key(parameters: bytes, final: bytes) -> Key | Report | None:
+    """Return the key of a whole sequence; people press the same ones again and again."""
+    return meaning(parameters.decode(), final.decode())
 
 
 def meaning(parameters: str, final: str) -> Key | Report | None:

@@ -52,6 +52,13 @@ def test_without_an_actuator_it_says_which_robots_could_have_been_meant():
     assert "no actuator heard on robot archangle (heard here: archangel); start" in shown
 
 
+def test_before_a_robot_can_have_been_heard_it_says_that_it_listens():
+    board = dashboard("step", robot="archangel")._replace(looking=True)
+    shown = texts(heading(board, 80, True))
+    assert shown[0].endswith("● looking")
+    assert shown[1] == "listening for robot archangel"
+
+
 HELD = "another sender drives this source, or did when this one began; let go, and begin anew"
 
 
