@@ -126,7 +126,7 @@ class Company:
 def log(words: str) -> Log:
     """Return what a keyboard shows as it is."""
     said = Log.zero()
-    said.name, said.msg = "stranger", words
+    said.name, said.level, said.msg = "actuator", Log.WARN, words
     return said
 
 

@@ -40,7 +40,7 @@ class NodeLog:
             self._held_back += 1
             return
         self._said[subject] = now
-        text = printable(text[:500]) + (f" ({self._held_back} others held back)" if self._held_back else "")
+        text = printable(text[:500]) + (f" ({self._held_back} more left out)" if self._held_back else "")
         self._held_back = 0
         self._publish(Log(clock.stamp(), level, self._name, text, "", "", 0))
         self.show(f"{self._name}: {_LEVELS[level]}: {text}")

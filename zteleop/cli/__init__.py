@@ -79,6 +79,8 @@ def _dispatch(arguments: list[str]) -> int:
         return 0
     if arguments[1:] and arguments[1] in GROUPS.get(arguments[0], ()):
         arguments = arguments[1:]
+    if arguments[0] in GROUPS and arguments[1:]:
+        arguments = [f"{arguments[0]} {arguments[1]}"]
     if arguments[0] not in VERBS:
         print(f"zteleop: {_unknown(arguments[0])}", file=sys.stderr)
         return 2
@@ -92,5 +94,8 @@ def _unknown(verb: str) -> str:
 
     if verb in ELSEWHERE:
         return f"no verb {verb!r}; {ELSEWHERE[verb]}"
+    if verb.partition(" ")[0] in GROUPS:
+        group = verb.partition(" ")[0]
+        return f"no verb {verb!r}; there are {', '.join(f'{group} {one}' for one in GROUPS[group])}"
     near = get_close_matches(verb, VERBS, 1)
     return f"no verb {verb!r}; " + (f"did you mean {near[0]}?" if near else f"known: {', '.join(VERBS)}")

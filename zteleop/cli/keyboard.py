@@ -14,7 +14,7 @@ from zteleop.control.report import to_vehicle
 from zteleop.drivers import tick_us
 from zteleop.inputs import Drive
 from zteleop.inputs.keyboard import Keyboard
-from zteleop.inputs.keymap import KEYMAPS, describe, keymap
+from zteleop.inputs.keymap import HELD, KEYMAPS, describe, keymap
 from zteleop.machine.guardian import guarded
 from zteleop.messages import Vehicle
 from zteleop.nodes.teleop import Teleop
@@ -26,6 +26,7 @@ EXAMPLES = (
     "zteleop keyboard",
     "zteleop keyboard --robot archangel --drive hold",
 )
+KILLED = "\r\nzteleop keyboard was killed; this terminal is as it was, and Enter brings its prompt\r\n"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -73,7 +74,7 @@ def drive_with_keys(
     )
     known = Dashboard(node.robot or "", "step", settings.speeds, steps=settings.steps, floor=floor)
     terminal = keyboard.terminal
-    with guarded(terminal.name, terminal.farewell), keyboard, Call(settings.bus) as lane:
+    with guarded(terminal.name, terminal.farewell + KILLED), keyboard, Call(settings.bus) as lane:
         keyboard.settle(clock.now)
         paint = Painter(keyboard, known)
         paint(View())
@@ -89,7 +90,7 @@ def drive_with_keys(
             else:
                 paint(view)
 
-        steps = vehicle.takes_ticks and not keyboard.tells_releases
+        steps = vehicle.takes_ticks and not keyboard.tells_releases and settings.keymap not in HELD
         keyboard.drive = drive or ("step" if steps else "hold")
         Teleop(node, keyboard, "keyboard", vehicle, show, lane).run()
     return keyboard.drive

@@ -89,3 +89,7 @@ class Block:
     def block(self, now: float) -> None:
         """Block every key that may still be down."""
         self._blocked |= {key: now for key, seen in self._seen.items() if now - seen < FIRST}
+
+    def is_felt(self, now: float) -> bool:
+        """Say whether a key was pressed just now in vain."""
+        return any(at == self._seen[key] and now - at < FIRST for key, at in self._blocked.items())

@@ -13,6 +13,8 @@ class Holding:
     def __init__(self) -> None:
         self.told = False
         """Releases are told, and a repeat says nothing that was not said."""
+        self.steers = True
+        """The robot turns by wheels that steer."""
         self._guess = HeldKeys()
         self._down = DownKeys()
 
@@ -23,6 +25,7 @@ class Holding:
 
     def press(self, key: Key, moves: Moves, now: float) -> None:
         """Take in a key that drives."""
+        moves = moves if self.steers else swing(moves)
         if not self.told:
             self._guess.press(key.name, moves, now)
         elif key.event == "press":
@@ -45,3 +48,10 @@ class Holding:
     def stick(self, now: float) -> Stick:
         """Return what the held keys ask for; nobody holds it when none is."""
         return self._down.stick() if self.told else self._guess.stick(now)
+
+
+def swing(moves: Moves) -> Moves:
+    """Return how what turns on the spot backs to a side: its nose turns the other way."""
+    if ("throttle", -1) not in moves:
+        return moves
+    return tuple((axis, -sign if axis == "steering" else sign) for axis, sign in moves)

@@ -105,6 +105,8 @@ class Keyboard:
     @property
     def certainty(self) -> str:
         """How sure it is which keys are held, and what would make it surer."""
+        if self._block.is_felt(self._now) and not self.tells_releases:
+            return f"pressed in vain: let go for {FIRST} s"
         if not self.tells_releases:
             return "release guessed; kitty, foot, ghostty tell it"
         return "release told (kitty protocol)" if self._typed.releases.focused else "no focus: neutral"
@@ -128,6 +130,7 @@ class Keyboard:
         """
         if self.drive == "step" and self._levers.fit(vehicle):
             self.reset(self._now)
+        self._holding.steers = vehicle.steers
         self.idle_limit = min(IDLE_LIMIT, vehicle.operator_silence)
         self._speed_keys.fit(vehicle)
 

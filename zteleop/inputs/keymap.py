@@ -53,16 +53,19 @@ KEYMAPS: dict[str, dict[str, str]] = {
     "wasd": {**WASD, **REST, **FASTER, **QUIT, **ALWAYS},
     "donkey": {**ARROWS, "space": "stop", **QUIT, **ALWAYS},  # the Donkeycar nodes
     "course": {**WASD, **FASTER, **QUIT, **ALWAYS, OTHER: "neutral"},  # the ROS 2 course on the Create 3
-    "twist": {  # ROS' teleop_twist_keyboard; backwards it turns the robot, not the wheels, to that side
+    "twist": {  # ROS' teleop_twist_keyboard
         **{"u": "forward left", "i": "forward", "o": "forward right"},
         **{"j": "left", "k": "neutral", "l": "right"},
-        **{"m": "reverse right", ",": "reverse", ".": "reverse left"},
+        **{"m": "reverse left", ",": "reverse", ".": "reverse right"},
         **{"q": "all faster", "w": "faster", "e": "turn faster"},
         **{"z": "all slower", "x": "slower", "c": "turn slower"},
         **ALWAYS,
         OTHER: "neutral",
     },
 }
+
+HELD = {"twist"}
+"""maps that are made for driving while a key is held"""
 
 
 def keymap(name: str) -> dict[str, str]:

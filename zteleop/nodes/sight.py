@@ -5,6 +5,8 @@ from zteleop.control.deadlines import LINK_LOSS
 from zteleop.control.hold import HOLDS
 from zteleop.messages import DriveStatus, Log, Odometry, Vehicle
 
+OWN = ("watchdog", "actuator", "blackbox")
+"""The robot's processes; what other operators' programs complain of is theirs to read."""
 NEWS = 10.0
 """s that a line of the log is shown; what it says may be over by then"""
 
@@ -58,7 +60,8 @@ class Sight:
         return self._odom
 
     def log(self, now: float) -> str:
-        """Return the latest line of its log, and of everybody's, while it is news."""
-        if newest := self._logs.newest():
-            self._log, self._log_at = f"{newest.name}: {newest.msg}", now
+        """Return its latest warning, while it is news; all else the status says better."""
+        for said in self._logs.take():
+            if said.message.name in OWN and said.message.level >= Log.WARN:
+                self._log, self._log_at = f"{said.message.name}: {said.message.msg}", now
         return self._log if now - self._log_at < NEWS else ""

@@ -21,6 +21,8 @@ from zteleop.bus.topics import topic_of
 from zteleop.control.proof import Proof
 from zteleop.errors import ConfigError, MessageError
 
+LONG_AGO = -1e12
+"""s"""
 SUFFIX = ".jsonl.gz"
 KEPT = 5
 """files of each reason"""
@@ -108,9 +110,13 @@ def line_of(raw: Raw, robot: str) -> Recorded:
 
 
 def _proof(attachment: bytes) -> Proof | None:
-    """Return a proof that can be read back: JSON knows no NaN."""
+    """Return a proof that can be read back: JSON knows no NaN, and what never was is told as long ago."""
     found = codec.unpack_proof(attachment)
-    return found if found and all(map(isfinite, found)) else None
+    if found is None:
+        return None
+    beat, acted, began = (max(at, LONG_AGO) for at in (found.beat, found.acted, found.began))
+    told = found._replace(beat=beat, acted=acted, began=began)
+    return told if all(map(isfinite, told)) else None
 
 
 def write(folder: Path, header: Header, messages: Iterable[Raw]) -> Path:

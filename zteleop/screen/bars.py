@@ -66,10 +66,11 @@ def in_steps(d: Dashboard, axis: Axis, room: int) -> Reach:
     count, most = lever.count(ticks), max(lever.most(1), lever.most(-1), 1)
     cells = max(1, min(most, room, CELLS if axis == "throttle" else most))
     plus, minus, rest = WORDS[axis]
-    words = f"{plus if count > 0 else minus} {abs(count)}/{lever.most(count)}" if count else rest
+    put_out = lever.count(out_ticks(d, axis, found.neutral_ticks))
+    told = count or put_out  # another one may drive
+    words = f"{plus if told > 0 else minus} {abs(told)}/{lever.most(told)}" if told else rest
     # steering grows to the right for right, which is the negative side of the axis
     sign = -1 if axis == "steering" else 1
-    put_out = lever.count(out_ticks(d, axis, found.neutral_ticks))
     return Reach(sign * share(count / most, cells), sign * share(put_out / most, cells), cells, words)
 
 
@@ -79,7 +80,8 @@ def in_parts(d: Dashboard, axis: Axis, room: int) -> Reach:
     asked, out = asked_part(d, axis), out_part(d, axis)
     plus, minus, rest = WORDS[axis]
     sign = -1 if axis == "steering" else 1
-    words = rest if not asked else plus if asked > 0 else minus
+    told = share(asked, cells) or share(out, cells)
+    words = rest if not told else plus if told > 0 else minus
     return Reach(sign * share(asked, cells), sign * share(out, cells), cells, words)
 
 

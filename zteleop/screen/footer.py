@@ -1,7 +1,7 @@
 """What the keys do, and the latest news."""
 
 from zteleop.screen.dashboard import Dashboard, Line, line
-from zteleop.terminal.cells import Span, cut, printable, wrap
+from zteleop.terminal.cells import Span, printable, wrap
 
 STOP = "STOP"
 ARROWS = ["up", "left", "down", "right"]
@@ -13,12 +13,12 @@ def footer(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
 
 
 def note_lines(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
-    """Return the note, cut; an alarm is whole, and goes last."""
+    """Return the note, in two lines at most; an alarm is whole, and goes last."""
     note = printable(d.seen.note, unicode)
     if d.seen.alarm:
         return [line(0, text, "alarm") for text in wrap(note, columns)[:4]]
-    note = cut(note, columns)
-    return [line(5 if note else 9, note, "dim")]
+    lines = wrap(note, columns)[:2] or [""]
+    return [line((5 if text else 9) + index, text, "dim") for index, text in enumerate(lines)]
 
 
 def key_lines(d: Dashboard, columns: int) -> list[Line]:

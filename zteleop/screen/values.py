@@ -78,8 +78,14 @@ def speeds_line(d: Dashboard, columns: int) -> Line:
     if columns < SHORT:
         turn = f"{d.speeds.turn:5.2f}" if turns else "lock"
         return labelled(4, "speeds", f"{d.speeds.forward:5.2f} {turn}", columns)
-    turn = f"{d.speeds.turn:.2f} rad/s i/k" if turns else "full lock"
-    return labelled(4, "full", f"{d.speeds.forward:.2f} m/s u/j  {turn}", columns)
+    turn = f"{d.speeds.turn:.2f} rad/s{keys(d, 'turn faster', 'turn slower')}" if turns else "full lock"
+    return labelled(4, "full", f"{d.speeds.forward:.2f} m/s{keys(d, 'faster', 'slower')}  {turn}", columns)
+
+
+def keys(d: Dashboard, *actions: str) -> str:
+    """Return the keys of two actions that belong together, where both are bound."""
+    bound = [d.bound[action] for action in actions if action in d.bound]
+    return " " + "/".join(bound) if len(bound) == len(actions) else ""
 
 
 def twist_text(twist: Twist | None, columns: int) -> str:

@@ -44,8 +44,8 @@ def test_a_subject_is_spoken_of_once_a_second_and_what_was_held_back_is_counted(
         clock.pass_by(0.1)
     assert ears.texts == [
         "smells odd 0",
-        "smells odd 10 (9 others held back)",
-        "smells odd 20 (9 others held back)",
+        "smells odd 10 (9 more left out)",
+        "smells odd 20 (9 more left out)",
     ]
 
 

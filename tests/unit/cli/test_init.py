@@ -81,6 +81,8 @@ def test_a_verb_may_stand_behind_its_group(verb: str, capsys: pytest.CaptureFixt
     assert ending.value.code == 0
     assert capsys.readouterr().out.startswith(f"usage: zteleop {verb} ")
     assert main(["topic", "delay"]) == 2
+    words = "zteleop: no verb 'topic delay'; there are topic list, topic echo, topic pub\n"
+    assert capsys.readouterr().err == words
 
 
 @pytest.mark.parametrize("verb", VERBS)

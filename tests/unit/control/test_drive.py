@@ -168,6 +168,20 @@ def test_a_stop_is_neutral_at_once_whoever_drives() -> None:
     assert robot.say(FORWARD) is Refusal.AT_REST
 
 
+def test_who_streams_through_a_long_stop_is_told_of_the_stop_and_then_of_its_release() -> None:
+    robot = Robot()
+    robot.hold(FORWARD, 0.5)
+    robot.stop(7)
+    told = set()
+    for _ in range(100):
+        robot.now += 0.05
+        told.add(robot.say(FORWARD))
+    assert told == {Refusal.AT_REST}
+    robot.release(7)
+    robot.now += 0.05
+    assert robot.say(FORWARD) is Refusal.BEFORE_RELEASE
+
+
 def rested(robot: Robot, state: str, on: bool) -> None:
     """Keep a robot at rest for a reason of this state, or no longer."""
     if state == "stopped":

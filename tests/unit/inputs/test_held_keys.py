@@ -129,3 +129,15 @@ def test_a_blocked_key_stays_blocked_over_a_second_reset():
     block.passes("up", 1.4)
     block.block(1.5)
     assert not block.passes("up", 2.05)
+
+
+def test_a_press_in_vain_is_felt_until_the_key_has_been_quiet():
+    block = Block()
+    block.passes("up", 1.0)
+    block.block(1.1)
+    assert not block.is_felt(1.1)
+    assert not block.passes("up", 1.4)
+    assert block.is_felt(1.5)
+    assert not block.is_felt(1.4 + FIRST)
+    assert block.passes("up", 1.4 + FIRST)
+    assert not block.is_felt(1.4 + FIRST)

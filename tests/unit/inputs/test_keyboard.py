@@ -3,7 +3,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from unit.inputs.typist import Typist
 
-from zteleop.control.stick import Speeds, Stick
+from zteleop.control.stick import Speeds, Stick, to_twist
 from zteleop.errors import ConfigError
 from zteleop.inputs import Wish
 from zteleop.inputs.held_keys import FIRST, REPEATING
@@ -376,3 +376,24 @@ def test_a_key_can_be_unbound(car):
     typist.type(b"w")
     assert typist.ticks() is None
     assert typist.keyboard.bound["forward"] == "up"
+
+
+def test_taps_that_follow_a_reset_too_soon_are_told(step):
+    step.type(UP)
+    step.keyboard.reset(step.now)
+    step.type(UP, after=0.36)
+    assert step.ticks() is None
+    assert step.keyboard.certainty == f"pressed in vain: let go for {FIRST} s"
+    step.type(UP, after=FIRST + 0.01)
+    assert step.ticks() == (375, 371)
+    assert "guessed" in step.keyboard.certainty
+
+
+def test_a_key_that_backs_to_the_left_does_so_on_wheels_that_steer_and_on_tracks(car, tank):
+    for vehicle, turn in ((car, 1.0), (tank, -1.0)):
+        typist = Typist("hold", vehicle, keymap="twist")
+        typist.type(b"m")
+        assert typist.stick() == Stick(-1.0, turn, deadman=True)
+        twist = to_twist(typist.stick(), Speeds(0.3, 1.0), vehicle)
+        assert twist.linear.x < 0
+        assert twist.angular.z < 0, "as teleop_twist_keyboard"

@@ -1,3 +1,5 @@
+from types import SimpleNamespace
+
 import pytest
 
 from zteleop.control.deadlines import LINK_LOSS
@@ -69,10 +71,10 @@ class Desk:
         status.confirmed = "read" if stop else ""
         self.node.inboxes["drive_status"].waiting.append(status)
 
-    def hear_log(self, text: str) -> None:
+    def hear_log(self, text: str, name: str = "actuator", level: int = Log.WARN) -> None:
         log = Log.zero()
-        log.name, log.msg = "actuator", text
-        self.node.inboxes["log"].waiting.append(log)
+        log.name, log.level, log.msg = name, level, text
+        self.node.inboxes["log"].waiting.append(SimpleNamespace(message=log))
 
     def tick(self, times: int = 1, beats: bool = True) -> None:
         for _ in range(times):
@@ -275,16 +277,14 @@ def test_a_robot_that_comes_back_as_another_kind_is_not_driven_and_said_why(
 def test_what_there_is_to_see_is_shown_at_every_tick(desk: Desk, clock: Clock) -> None:
     status, odom = DriveStatus.zero(), Odometry.zero()
     status.operator = desk.twists.sender
-    log = Log.zero()
-    log.name, log.msg = "actuator", "idle"
+    desk.hear_log("it smells")
     desk.node.inboxes["drive_status"].waiting.append(status)
     desk.node.inboxes["odom"].waiting.append(odom)
-    desk.node.inboxes["log"].waiting.append(log)
     desk.device.position = Stick(1.0, 0.0, deadman=True)
     desk.tick(2)
     view = desk.views[-1]
     assert (view.now, view.vehicle, view.stick) == (clock.time, CAR, desk.device.position)
-    assert (view.status, view.ours, view.odom, view.note) == (status, True, odom, "actuator: idle")
+    assert (view.status, view.ours, view.odom, view.note) == (status, True, odom, "actuator: it smells")
     assert view.command == Twist.planar(0.5)
 
 
@@ -468,5 +468,11 @@ def test_a_line_of_the_log_is_shown_while_it_is_news(desk: Desk) -> None:
     desk.hear_log("obeys archangel")
     desk.tick(2)
     assert desk.views[-1].note == "actuator: obeys archangel"
+    desk.hear_log("cmd_vel is refused", name="publisher")
+    desk.hear_log("driving: keyboard 18d4 drives", level=Log.INFO)
+    desk.tick(2)
+    assert desk.views[-1].note == "actuator: obeys archangel", (
+        "the status says the one, its operator reads the other"
+    )
     desk.tick(int(sight.NEWS / PERIOD) + 2)
     assert desk.views[-1].note == ""

@@ -196,3 +196,11 @@ def test_a_proof_that_no_reader_could_read_back_stays_bytes() -> None:
     kept = line(BEAT._replace(attachment=strange))
     assert "proof" not in kept
     assert kept["attachment"]
+
+
+def test_a_proof_of_what_never_began_keeps_its_sender() -> None:
+    attachment = codec.pack_proof(PROOF._replace(acted=float("-inf"), began=float("-inf")))
+    kept = blackbox_file._proof(attachment)
+    assert kept is not None
+    assert (kept.sender, kept.seq, kept.beat) == (PROOF.sender, PROOF.seq, PROOF.beat)
+    assert kept.began == kept.acted == blackbox_file.LONG_AGO

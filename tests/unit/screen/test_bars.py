@@ -103,3 +103,13 @@ def test_bars_and_their_words_fit(car, pwm):
         bars = texts(bar_lines(board, columns, False))
         assert all("]" in text for text in bars)
         assert columns < 34 or all(len(text) <= columns for text in bars)
+
+
+def test_while_another_drives_the_words_are_of_what_is_put_out(car, tank):
+    said = status(pulses=pulses(car, {"steering": 330, "throttle": 372}))
+    for drive, words in (("step", ["right 3/6", "forward 2/30"]), ("hold", ["right", "forward"])):
+        shown = texts(bar_lines(dashboard(drive, car, status=said), 80, False))
+        assert [line.rpartition("]  ")[2] for line in shown] == words
+    said = status(applied=Twist.planar(-0.1, 0.5))
+    shown = texts(bar_lines(dashboard("hold", tank, status=said), 80, False))
+    assert [line.rpartition("]  ")[2] for line in shown] == ["left", "reverse"]

@@ -2,6 +2,7 @@ import pytest
 from unit.screen.boards import dashboard, pulses, status, text, texts
 
 from zteleop.control.stick import Speeds
+from zteleop.inputs.keymap import KEYMAPS, first_keys
 from zteleop.messages import Odometry, Pwm, Twist
 from zteleop.screen.values import asked_line, output_line, speeds_line, value_lines
 
@@ -80,3 +81,10 @@ def test_what_a_full_stick_means(car, tank):
     ):
         board = dashboard("hold", vehicle, speeds=Speeds(0.2, 1.0))
         assert text(speeds_line(board, columns).spans) == words
+
+
+def test_the_keys_of_the_speeds_are_those_that_are_bound(tank):
+    board = dashboard("hold", tank)._replace(bound=first_keys(KEYMAPS["twist"]))
+    assert text(speeds_line(board, 80).spans) == "full      0.50 m/s w/x  1.00 rad/s e/c"
+    board = board._replace(bound={"faster": "u"})
+    assert text(speeds_line(board, 80).spans) == "full      0.50 m/s  1.00 rad/s"
