@@ -4,19 +4,26 @@ import os
 import re
 import signal
 import socket
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 from faults.deaf import is_deaf
 from faults.usage import usage
-from rig import NEUTRAL, Rig, repeating, until
+from rig import NEUTRAL, Process, Rig, repeating, until
 
 from zteleop.chaos.spoiler import poison
 from zteleop.messages import Twist
 
 LISTENS_AND_TAKES_NOBODY = """import socket, sys
 if 'door' in sys.orig_argv: deaf = socket.create_server(('127.0.0.1', 0))"""
+DRIVER = """from zteleop import BusSettings, Node, Twist
+with Node("driver", "bench", BusSettings(connect=[{endpoint!r}], multicast=False)) as node:
+    motors = node.publisher("cmd_vel", Twist)
+    node.every(0.02)(lambda: motors.publish(Twist.planar(0.5)))
+    node.spin()
+"""
 NEVER_OPENS = "import sys\nif 'door' in sys.orig_argv: raise SystemExit('no door')"
 
 
@@ -67,11 +74,7 @@ def frozen(robot: Robot) -> None:
     os.kill(robot.door, signal.SIGSTOP)
 
 
-def poisoned(robot: Robot) -> None:
-    poison(robot.rig.endpoint)
-
-
-@pytest.mark.parametrize("breaks", [killed, frozen, poisoned])
+@pytest.mark.parametrize("breaks", [killed, frozen])
 def test_a_robot_whose_door_breaks_opens_another_and_is_driven_on(
     robot: Robot, breaks: Callable[[Robot], None]
 ) -> None:
@@ -79,10 +82,51 @@ def test_a_robot_whose_door_breaks_opens_another_and_is_driven_on(
     robot.process.says("the door to the bus is shut")
     robot.process.says("the door is open again")
     until(robot.drives_on, "whoever drove drives on")
-    assert not is_deaf(robot.rig.port), "a newcomer is heard"
-    assert (robot.process.child, robot.process.recorder) == robot.others
-    stopped = robot.rig.result("stop", *robot.rig.bus_options())
-    assert (stopped.returncode, robot.rig.ticks) == (0, NEUTRAL), stopped.stderr
+    serves_as_before(robot.rig, robot.process, robot.others)
+
+
+def serves_as_before(rig: Rig, process: Process, others: tuple[int | None, int | None]) -> None:
+    assert not is_deaf(rig.port), "a newcomer is heard"
+    assert (process.child, process.recorder) == others
+    stopped = rig.result("stop", *rig.bus_options())
+    assert (stopped.returncode, rig.ticks) == (0, NEUTRAL), stopped.stderr
+
+
+def test_a_robot_whose_door_is_poisoned_opens_another_and_is_driven_by_whoever_begins_then(rig: Rig) -> None:
+    """A door may pass the poison on to the drivers there are, and zenoh in their processes breaks as it does.
+
+    So this one is a process of its own, and is started again, as people do, where that has happened.
+    """
+    process = rig.actuator()
+    until(lambda: process.recorder, "a black box")
+    others, driver = (process.child, process.recorder), Driver(rig)
+    until(driver.drives, "somebody drives")
+    poison(rig.endpoint)
+    process.says("the door to the bus is shut")
+    process.says("the door is open again")
+    until(driver.drives, "a driver, perhaps a new one")
+    serves_as_before(rig, process, others)
+
+
+class Driver:
+    """A program that drives, and another one where the first no longer does."""
+
+    def __init__(self, rig: Rig) -> None:
+        self._rig = rig
+        self._begin()
+
+    def _begin(self) -> None:
+        self._program = self._rig.program(DRIVER.format(endpoint=self._rig.endpoint))
+        self._until = time.monotonic() + 6.0
+
+    def drives(self) -> bool:
+        """Say whether it drives; after a while in which it never did, try the next one."""
+        moves = self._rig.ticks[1] > NEUTRAL[1]
+        if not moves and time.monotonic() > self._until:
+            self._program.signal(signal.SIGKILL)
+            self._program.ends()
+            self._begin()
+        return moves
 
 
 def test_a_robot_whose_door_never_opens_again_rests_and_is_stopped_without_one(

@@ -116,6 +116,8 @@ def test_a_program_drives_as_source_program_and_ends_at_sigterm(rig: Rig, node: 
     assert (status.source, status.why) == ("program", f"program {status.operator[-4:]} drives")
     turner.signal(signal.SIGTERM)
     assert turner.ends() == 143
+    over = hear(statuses, lambda status: status.state != "driving", "the end")
+    assert (over.state, over.why) == ("idle", "nobody drives"), "it left in order, and is not lost"
     until(lambda: rig.ticks == NEUTRAL, "neutral")
     assert turner.text == ""
 

@@ -1,7 +1,7 @@
 """A node: a name on the bus, with publishers, subscriptions and timers, single-threaded for its user."""
 
 from collections.abc import Callable
-from typing import Self, TypeVar
+from typing import Any, Self, TypeVar
 
 from zteleop.bus import presence
 from zteleop.bus.answer import Answer
@@ -34,6 +34,7 @@ class Node:
         *,
         session: Session | None = None,
     ) -> None:
+        self._commands: list[Publisher[Any]] = []
         self.name = chunk(name, "a node's name")
         self.robot = robot_name(robot) if robot else None
         session = session or open_session(bus or BusSettings())
@@ -60,9 +61,13 @@ class Node:
             self._undo_signals()
 
     def close(self) -> None:
-        """Leave the bus: others see this node go, and its threads end."""
-        self.membership.close()
-        stderr.flush()
+        """Let go of every robot and leave the bus: others see this node go, and its threads end."""
+        try:
+            for commands in self._commands:
+                commands.leave()
+        finally:
+            self.membership.close()
+            stderr.flush()
 
     def await_robot(self) -> bool:
         """Wait, at most 1 s, until the robot is heard, and 6 s while it starts; True when it is there.
@@ -102,7 +107,7 @@ class Node:
         if not found:
             answer.miss()
         self.membership.session.declare_token(presence.sender_key(name.robot, sender))
-        return Publisher(
+        publisher = Publisher[M](
             self.membership.outlet(name, kinds, about.urgent),
             kinds,
             Prover(sender),
@@ -110,6 +115,8 @@ class Node:
             self.membership.listen_now,
             answer,
         )
+        self._commands.append(publisher)
+        return publisher
 
     def subscription(
         self,

@@ -80,6 +80,11 @@ class Publisher(Generic[M]):
             if rest := neutral(self._said, self._heard.vehicle):
                 self._put(rest, *self._encode(rest))
 
+    def leave(self) -> None:
+        """Let go of what this publisher moves, if anything: its program ends in order, and is not lost."""
+        if self._prover and self._prover.moving:
+            self.let_go()
+
     def repeat(self, message: M) -> None:
         """Say a message without a new act."""
         encoding, payload = self._encode(message)

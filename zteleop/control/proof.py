@@ -53,6 +53,11 @@ class Prover:
     def sender(self) -> int:
         return self._sender
 
+    @property
+    def moving(self) -> bool:
+        """Whether the last command asked for anything but rest."""
+        return self._moving
+
     def act(self, beat: Beat | None) -> None:
         """Note that the operator acted, having heard `beat`."""
         if beat:

@@ -88,6 +88,21 @@ def test_a_command_goes_out_under_its_source(
     assert key in session.outlets
 
 
+@pytest.mark.parametrize(("command", "words"), [(Twist.planar(0.3), 2), (Twist.planar(), 1), (None, 0)])
+def test_whoever_leaves_in_order_lets_go_of_what_moves_and_says_no_more_than_that(
+    session: Session, command: Twist | None, words: int
+) -> None:
+    with Node("nose", "archangel", session=session) as node:
+        motors = node.publisher("cmd_vel", Twist)
+        if command:
+            motors.publish(command)
+    puts = said(session, "robot/archangel/cmd_vel/program").puts
+    assert len(puts) == words
+    if puts:
+        last = codec.decode(puts[-1].payload, puts[-1].encoding, codec.decoders([Twist]))
+        assert last == Twist.planar()
+
+
 def test_commands_overtake(node: Node, session: Session) -> None:
     node.publisher("pwm", (Pwm, Int16MultiArray))
     node.publisher("odom", Odometry)

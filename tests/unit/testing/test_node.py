@@ -33,7 +33,7 @@ def face(kind: type) -> dict[str, list[tuple[str, object, object]]]:
         (Node, FakeNode, set()),
         (PulseDriver, MemoryChip, set()),
         (Terminal, FakeTerminal, {"size", "draw"}),
-        (Publisher, Said, set()),
+        (Publisher, Said, {"leave"}),
         (Subscription, Inbox, {"read"}),
         (Loop, FakeLoop, {"call_soon", "call_next", "fail", "close", "run", "run_once"}),
         (Membership, FakeMembership, set(face(Membership)) - {"heard", "departures", "until"}),
