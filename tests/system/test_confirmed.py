@@ -53,7 +53,7 @@ def test_the_keyboard_says_so_as_well_and_takes_it_back_when_the_chip_answers(
     rig: Rig, faults: Faults
 ) -> None:
     keyboard = rig.keyboard(columns=140)
-    keyboard.shows("idle")
+    keyboard.shows(" idle")
     turns_deaf_while_it_drives(rig, faults)
     keyboard.type(DELETE)
     keyboard.shows("● fault", HEARD)

@@ -76,7 +76,7 @@ def test_a_terminal_that_does_not_tell_says_so_and_drives_in_steps(rig: Rig) -> 
 
 def test_whoever_says_how_drives_so(rig: Rig) -> None:
     keyboard = rig.keyboard("--drive", "step", tells_releases=True)
-    keyboard.shows("step drive", "release told")
+    keyboard.shows("step drive", "nobody operates", "release told")
     keyboard.key("w")
     keyboard.key("w", "release")
     until(lambda: rig.ticks == (375, 374), "a lever that stays")

@@ -45,7 +45,7 @@ def left(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Left]:
     with Rig(tmp_path_factory.mktemp("left")) as bench:
         bench.actuator()
         keyboard = bench.keyboard()
-        keyboard.shows("idle")
+        keyboard.shows(" idle")
         with Watch(bench) as watch:
             keyboard.type(LEFT + UP)
             yield Left(bench, keyboard, watch)
@@ -55,7 +55,7 @@ def left(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Left]:
 def operating(rig: Rig, keyboard: Terminal) -> Iterator[Terminal]:
     """Wait until a keyboard knows the robot; give the robot to the next test at rest."""
     try:
-        keyboard.shows("idle")
+        keyboard.shows(" idle")
         yield keyboard
     finally:
         if keyboard.process.poll() is None:
@@ -148,7 +148,7 @@ def test_a_repeating_key_drives_and_its_end_is_neutral(rig: Rig, held: Terminal)
         until(lambda: rig.ticks[1] >= NEUTRAL[1] + 20, "the speed that the screen says")
         held.shows("asked     +0.50 m/s", "driving")
     stands(rig, *NEUTRAL)
-    held.shows("idle")  # it was let go, and did not fall silent
+    held.shows(" idle")  # it was let go, and did not fall silent
     grown = {throttle for _, throttle in watch.seen}
     assert len(grown) >= 6, f"no ramp of acceleration: {grown}"
 

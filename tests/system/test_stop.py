@@ -37,7 +37,7 @@ def statuses(rig: Rig, actuator: Process) -> Subscription[DriveStatus]:
 @pytest.fixture
 def keyboard(rig: Rig, actuator: Process) -> Terminal:
     keyboard = rig.keyboard()
-    keyboard.shows("idle")
+    keyboard.shows(" idle")
     return keyboard
 
 
@@ -146,7 +146,7 @@ def test_a_release_moves_nothing_that_is_held_until_it_is_let_go_and_pressed_aga
     rig: Rig, actuator: Process
 ) -> None:
     keyboard = rig.keyboard("--drive", "hold")
-    keyboard.shows("idle")
+    keyboard.shows(" idle")
     with repeating(lambda: keyboard.type("w"), REPEAT):
         drives(rig)
         stop_by_shell(rig)

@@ -12,7 +12,7 @@ def pressed(rig: Rig) -> Terminal:
     """Start a robot and a keyboard, and press two keys."""
     rig.actuator()
     keyboard = rig.keyboard()
-    keyboard.shows("idle")
+    keyboard.shows(" idle")
     keyboard.type(LEFT + UP)
     until(lambda: rig.ticks == (390, 374), "levers on the chip")
     return keyboard

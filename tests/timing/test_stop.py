@@ -13,7 +13,7 @@ STREAM = 0.02
 def test_a_stop_that_is_pressed_brings_neutral_at_once(rig: Rig) -> None:
     rig.actuator()
     keyboard = rig.keyboard()
-    keyboard.shows("idle")
+    keyboard.shows(" idle")
     keyboard.type(LEFT + UP)
     until(lambda: rig.ticks == (390, 374), "levers on the chip")
     deadline = Deadline(rig)

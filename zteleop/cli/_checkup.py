@@ -110,7 +110,8 @@ def terminal(patient: Patient) -> Finding:
     colors = "colours" if wants_color(os.environ) else "no colours"
     signs = "Unicode" if speaks_unicode(os.environ, sys.stdout.encoding) else "ASCII"
     return Finding(
-        True, f"{kind}, {columns} x {rows}, {colors}, {signs}; key releases are guessed by repeats"
+        True,
+        f"{kind}, {columns} x {rows}, {colors}, {signs}; zteleop keyboard says what it tells of keys",
     )
 
 

@@ -40,7 +40,6 @@ class Painter:
             idle_left=left if left is None else round(left, 1),
             looking=view.status is None and clock.now() < self._looks_until,
             certainty=keyboard.certainty,
-            bound=keyboard.bound,
             keys=keyboard.help,
         )
         size = terminal.size()

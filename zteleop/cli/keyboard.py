@@ -26,7 +26,7 @@ EXAMPLES = (
     "zteleop keyboard",
     "zteleop keyboard --robot archangel --drive hold",
 )
-KILLED = "\r\nzteleop keyboard was killed; this terminal is as it was, and Enter brings its prompt\r\n"
+KILLED = "\r\nzteleop was killed; this terminal is as it was, and Enter brings its prompt\r\n"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -37,7 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--drive",
         choices=["step", "hold"],
         help="step: every press moves a lever, and there it stays; hold: drive while a key is held "
-        "(default: step for cars, else hold)",
+        "(default: hold where the terminal tells releases, or nothing takes steps; else step)",
     )
 
 
@@ -72,7 +72,14 @@ def drive_with_keys(
     keyboard = Keyboard(
         speeds=settings.speeds, steps=settings.steps, keymap=settings.keymap, keys=settings.keys
     )
-    known = Dashboard(node.robot or "", "step", settings.speeds, steps=settings.steps, floor=floor)
+    known = Dashboard(
+        robot=node.robot or "",
+        drive="step",
+        speeds=settings.speeds,
+        steps=settings.steps,
+        floor=floor,
+        bound=keyboard.bound,
+    )
     terminal = keyboard.terminal
     with guarded(terminal.name, terminal.farewell + KILLED), keyboard, Call(settings.bus) as lane:
         keyboard.settle(clock.now)
@@ -82,6 +89,7 @@ def drive_with_keys(
         if not node.membership.heard().vehicle:
             here = presence.robots(node.membership.session)
             paint.known = known._replace(others=who_is_here(here))
+        keyboard.settle(clock.now)  # once more: what was typed while nobody looked
 
         def show(view: View) -> None:
             watch(view)

@@ -1,9 +1,9 @@
 """A pad as a stick that counts only while its dead-man button is held."""
 
-from typing import Literal, Self
+from typing import Self
 
 from zteleop.control.stick import Speeds, Stick
-from zteleop.inputs import Wish
+from zteleop.inputs import Drive, Wish
 from zteleop.inputs.gamepad_controls import Controls
 from zteleop.inputs.gamepad_map import FORGET, GamepadSettings, Moved, Pads
 from zteleop.messages import Vehicle
@@ -18,7 +18,7 @@ class Gamepad:
     After a start, another pad, a stop or a lost link it counts once the sticks rest and the dead-man is up.
     """
 
-    drive: Literal["step", "hold"] = "hold"
+    drive: Drive = "hold"
 
     def __init__(
         self, pads: Pads, settings: GamepadSettings | None = None, speeds: Speeds | None = None

@@ -18,6 +18,12 @@ class Holding:
         self._guess = HeldKeys()
         self._down = DownKeys()
 
+    def be_told(self, told: bool) -> None:
+        """Learn whether releases are told; a key that was held otherwise counts as let go."""
+        if told != self.told:
+            self.told = told
+            self.clear()
+
     @property
     def known(self) -> bool:
         """Whether a key is down for certain."""

@@ -2,11 +2,11 @@
 
 import select
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Literal, Self
+from typing import TYPE_CHECKING, Self
 
 from zteleop.control.stick import Speeds, Stick
 from zteleop.errors import DeviceError
-from zteleop.inputs import Wish
+from zteleop.inputs import Drive, Wish
 from zteleop.inputs.held_keys import FIRST, REPEATING, Block
 from zteleop.inputs.holding import Holding
 from zteleop.inputs.keymap import DIRECTIONS, OTHER, Moves, bindings, describe, first_keys
@@ -36,7 +36,7 @@ class Keyboard:
 
     def __init__(
         self,
-        drive: Literal["step", "hold"] = "step",
+        drive: Drive = "step",
         *,
         speeds: Speeds | None = None,
         steps: Steps | None = None,
@@ -44,7 +44,7 @@ class Keyboard:
         keys: Mapping[str, str] | None = None,
         terminal: "Terminal | None" = None,
     ) -> None:
-        self.drive: Literal["step", "hold"] = drive
+        self.drive: Drive = drive
         self.finished = False
         self.rested = False
         self.suspending = False
@@ -105,19 +105,25 @@ class Keyboard:
     @property
     def certainty(self) -> str:
         """How sure it is which keys are held, and what would make it surer."""
-        if self._block.is_felt(self._now) and not self.tells_releases:
+        if self.tells_releases:
+            return "release told (kitty protocol)" if self._typed.releases.focused else "no focus: neutral"
+        if self._block.is_felt(self._now):
             return f"pressed in vain: let go for {FIRST} s"
-        if not self.tells_releases:
-            return "release guessed; kitty, foot, ghostty tell it"
-        return "release told (kitty protocol)" if self._typed.releases.focused else "no focus: neutral"
+        return "release guessed; kitty, foot, ghostty tell it"
 
     def settle(self, clock: Callable[[], float]) -> None:
-        """Wait, not for long, until the terminal has said what it can; what is typed meanwhile is lost."""
+        """Wait, not for long, until the terminal has said what it can.
+
+        What is typed meanwhile moves and releases nothing; whoever stops or quits does.
+        """
         give_up = clock() + ANSWERED_WITHIN
-        self._typed.read(clock())
+        self.read(clock())
         while not self._typed.releases.known and (left := give_up - clock()) > 0:
             select.select([self.terminal], [], [], left)
-            self._typed.read(clock())
+            self.read(clock())
+        self.reset(clock())
+        if self._wishes.newest is Wish.RELEASE:
+            self._wishes.newest = None
 
     def fileno(self) -> int:
         """Return what turns readable when a key was pressed."""
@@ -138,7 +144,7 @@ class Keyboard:
         """Take in what happened to the keys, without blocking; True when somebody acts."""
         self._now = now
         keys = self._typed.read(now)
-        self._holding.told = self.tells_releases
+        self._holding.be_told(self.tells_releases)
         if self._typed.ended:
             self.quit()
         if self._typed.went_on(now):

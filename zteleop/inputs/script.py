@@ -1,17 +1,17 @@
 """A figure of eight, driven without a person: for demonstrations and trials."""
 
 from math import pi
-from typing import Literal, Self
+from typing import Self
 
 from zteleop.control.stick import Speeds, Stick, tightest
-from zteleop.inputs import Wish
+from zteleop.inputs import Drive, Wish
 from zteleop.messages import Vehicle
 
 
 class Script:
     """An input that drives one figure, begun at the first read."""
 
-    drive: Literal["step", "hold"] = "hold"
+    drive: Drive = "hold"
 
     def __init__(self, duration: float = 10.0, speeds: Speeds | None = None) -> None:
         self.duration = duration

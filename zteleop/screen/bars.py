@@ -27,10 +27,10 @@ class Reach(NamedTuple):
 def bar_lines(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
     """Return how far the operator pushes, and how far the robot follows."""
     axes: tuple[Axis, ...] = ("steering", "throttle")
-    return [Line(4, bar_spans(axis, reach(d, axis, columns), columns, unicode)) for axis in axes]
+    return [Line(4, bar_spans(axis, reach(d, axis, columns), unicode)) for axis in axes]
 
 
-def bar_spans(axis: Axis, found: Reach, columns: int, unicode: bool) -> list[Span]:
+def bar_spans(axis: Axis, found: Reach, unicode: bool) -> list[Span]:
     left, minus, plus, hollow, middle, right = BLOCKS if unicode else PLAIN[axis]
     style = COLORS[axis]
     drawn: list[Span] = []
@@ -100,7 +100,7 @@ def out_part(d: Dashboard, axis: Axis) -> float:
     if status is None or vehicle is None or status.confirmed == "cut":
         return 0.0
     if channel(vehicle, axis):
-        return next((pulse.fraction for pulse in status.pulses if pulse.name == axis), 0.0)
+        return next((pulse.fraction for pulse in d.pulses if pulse.name == axis), 0.0)
     twist = status.applied
     if axis == "throttle":
         return part(twist.linear.x, vehicle.max_speed)
@@ -108,8 +108,7 @@ def out_part(d: Dashboard, axis: Axis) -> float:
 
 
 def out_ticks(d: Dashboard, axis: Axis, rest: int) -> int:
-    pulses = d.seen.status.pulses if d.seen.status and d.seen.status.confirmed != "cut" else []
-    return next((pulse.duty_ticks for pulse in pulses if pulse.name == axis), rest)
+    return next((pulse.duty_ticks for pulse in d.pulses if pulse.name == axis), rest)
 
 
 def part(value: float, most: float) -> float:

@@ -1,12 +1,13 @@
 """What there is to show, and lines that know their rank: in a small window the last ranks go first."""
 
 from collections.abc import Mapping, Sequence
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 from zteleop.control.stick import Speeds
+from zteleop.inputs import Drive
 from zteleop.inputs.keymap import KEYMAPS, first_keys
 from zteleop.inputs.levers import Steps
-from zteleop.messages import Channel, Vehicle
+from zteleop.messages import Channel, Pulse, Vehicle
 from zteleop.screen.top_view import Mark
 from zteleop.screen.view import View
 from zteleop.terminal.cells import Span
@@ -22,7 +23,7 @@ class Dashboard(NamedTuple):
     """Everything shown."""
 
     robot: str
-    drive: Literal["step", "hold"]
+    drive: Drive
     speeds: Speeds
     seen: View = View()
     trail: Sequence[tuple[float, float]] = ()
@@ -51,6 +52,12 @@ class Dashboard(NamedTuple):
     def obeyed(self) -> bool:
         """Whether the robot does what this operator asks, as far as its limits allow."""
         return self.seen.ours and self.seen.status is not None and self.seen.status.state == "driving"
+
+    @property
+    def pulses(self) -> Sequence[Pulse]:
+        """What leaves the chip: nothing while its outputs are cut, or nobody tells."""
+        status = self.seen.status
+        return () if status is None or status.confirmed == "cut" else status.pulses
 
 
 class Line(NamedTuple):

@@ -70,8 +70,7 @@ def reasons(d: Dashboard, unicode: bool) -> list[tuple[str, str]]:
 def dead_zone(d: Dashboard) -> list[tuple[str, str]]:
     """Return, while that is so, that the throttle is on but turns no motor."""
     throttle = channel(d.seen.vehicle, "throttle")
-    pulses = d.seen.status.pulses if d.seen.status else []
-    ticks = next((pulse.duty_ticks for pulse in pulses if pulse.name == "throttle"), None)
+    ticks = next((pulse.duty_ticks for pulse in d.pulses if pulse.name == "throttle"), None)
     if not d.obeyed or throttle is None or ticks is None or ticks == throttle.neutral_ticks:
         return []
     least, most = throttle.neutral_ticks - throttle.dead_ticks, throttle.neutral_ticks + throttle.dead_ticks

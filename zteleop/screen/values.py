@@ -25,7 +25,7 @@ def value_lines(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
     if found := pose(d.seen.odom):
         x, y, heading = found
         degree = "°" if unicode else " deg"
-        lines.append(line(8, f"{'place':<10}x {x:.2f}  y {y:.2f} m  {degrees(heading):.0f}{degree}"))
+        lines.append(labelled(8, "place", f"x {x:.2f}  y {y:.2f} m  {degrees(heading):.0f}{degree}", columns))
     return lines
 
 
@@ -67,8 +67,7 @@ def output_line(d: Dashboard) -> Line:
 
 def output_ticks(d: Dashboard) -> str:
     """Return [steering, throttle] as the chip puts them out."""
-    pulses = d.seen.status.pulses if d.seen.status and d.seen.status.confirmed != "cut" else []
-    ticks = {pulse.name: str(pulse.duty_ticks) for pulse in pulses}
+    ticks = {pulse.name: str(pulse.duty_ticks) for pulse in d.pulses}
     return f"[{ticks.get('steering', '-')}, {ticks.get('throttle', '-')}]"
 
 

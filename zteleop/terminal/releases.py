@@ -63,10 +63,10 @@ class Releases:
             self.focused = bool(report.value)
         elif report.of == "attributes":
             self._unanswered = max(0, self._unanswered - 1)
-        elif report.value & TELLS_EVENTS:
-            self.told = True
-        elif self._terminal.switch_on(ON, OFF):
-            self._say(ASK, now)  # some grant less than they are asked for
+        else:
+            self.told = bool(report.value & TELLS_EVENTS)
+            if not self.told and self._terminal.switch_on(ON, OFF):
+                self._say(ASK, now)  # some grant less than they are asked for
 
     def _say(self, text: str, now: float) -> None:
         self._unanswered += self._terminal.say(text)

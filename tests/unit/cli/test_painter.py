@@ -44,10 +44,10 @@ class Easel:
         self.worked += 1
         return self.render(*arguments, **options)
 
-    def show(self, x: float = 0.0, said: DriveStatus | None = None, **seen: Any) -> str:
+    def show(self, x: float = 0.0, said: DriveStatus | None = None, y: float = 0.0, **seen: Any) -> str:
         self.clock.pass_by(0.05)
         odom = Odometry.zero()
-        odom.pose.pose.position.x = x
+        odom.pose.pose.position.x, odom.pose.pose.position.y = x, y
         odom.header.stamp.sec = round(self.clock.time)
         self.painter(View(self.clock.time, self.car, status=said, odom=odom, **seen))
         return "\n".join(self.wall.pages[-1])
@@ -89,6 +89,10 @@ def test_a_trail_is_where_the_robot_has_been(
     for x in (0.0, TRAIL_STEP / 2, 2 * TRAIL_STEP, 2.1 * TRAIL_STEP, 5 * TRAIL_STEP):
         easel.show(x, idle(car))
     assert list(easel.painter._trail) == [(0.0, 0.0), (2 * TRAIL_STEP, 0.0), (5 * TRAIL_STEP, 0.0)]
+    easel.show(5 * TRAIL_STEP, idle(car), y=-2 * TRAIL_STEP)
+    assert easel.painter._trail[-1] == (5 * TRAIL_STEP, -2 * TRAIL_STEP)
+    easel.painter(View(easel.clock.time, car, status=idle(car)))
+    assert len(easel.painter._trail) == 4
 
 
 def test_a_robot_not_heard_yet_is_looked_for_and_then_said_to_be_missing(

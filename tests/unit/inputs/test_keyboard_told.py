@@ -176,3 +176,21 @@ def test_what_a_terminal_answers_is_waited_for(car, monkeypatch):
     monkeypatch.setattr("select.select", answer)
     typist.keyboard.settle(lambda: 100.0)
     assert typist.keyboard.tells_releases
+
+
+@pytest.mark.parametrize("drive", ["step", "hold"])
+def test_what_is_typed_before_it_begins_moves_nothing_and_whoever_stops_or_quits_does(car, drive):
+    typist = Typist(drive, car)
+    for typed, wish, finished in ((b"wr", None, False), (b"w\x7f", Wish.STOP, False), (b"w\x03", None, True)):
+        typist.terminal.typed = typed
+        typist.keyboard.settle(lambda: typist.now)
+        assert typist.stick() == Stick()
+        assert (typist.wish(), typist.keyboard.finished) == (wish, finished)
+
+
+def test_a_terminal_that_no_longer_tells_releases_has_let_go_of_what_was_held(told):
+    told.press("w")
+    told.type(b"\x1b[?0u")
+    assert told.stick() == Stick()
+    assert not told.keyboard.tells_releases
+    assert not told.type(b"", after=TICK), "no key is known to be down"

@@ -7,7 +7,7 @@ from zteleop.screen.bars import Reach, bar_lines, bar_spans
 
 
 def bar(asked: int, out: int, cells: int = 6, axis: str = "steering", unicode: bool = False) -> str:
-    return text(bar_spans(axis, Reach(asked, out, cells, ""), 80, unicode))[10:].rstrip()
+    return text(bar_spans(axis, Reach(asked, out, cells, ""), unicode))[10:].rstrip()
 
 
 def test_the_bar_grows_a_mark_a_step_and_is_as_wide_as_the_most():
@@ -35,9 +35,9 @@ def test_what_is_asked_but_not_put_out_is_hollow(asked, out, drawn):
 
 
 def test_what_is_put_out_has_a_colour_and_what_is_only_asked_is_dim():
-    spans = bar_spans("throttle", Reach(2, 1, 2, ""), 80, True)
+    spans = bar_spans("throttle", Reach(2, 1, 2, ""), True)
     assert [span.style for span in spans if span.text in "█░"] == ["green", "dim"]
-    assert "cyan" in [span.style for span in bar_spans("steering", Reach(2, 1, 2, ""), 80, True)]
+    assert "cyan" in [span.style for span in bar_spans("steering", Reach(2, 1, 2, ""), True)]
 
 
 @pytest.mark.parametrize(

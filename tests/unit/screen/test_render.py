@@ -8,7 +8,7 @@ from unit.screen.boards import dashboard
 
 from zteleop.control.stick import Speeds
 from zteleop.messages import Channel, DriveStatus, Odometry, Pulse, Pwm, Stop, Twist, Vehicle
-from zteleop.screen.render import Dashboard, render
+from zteleop.screen.render import Dashboard, render, steering_angle
 from zteleop.screen.view import View
 from zteleop.terminal.cells import width
 
@@ -199,3 +199,13 @@ def test_a_terminal_shows_exactly_these_lines(car):
     screen = pyte.Screen(80, 24)
     pyte.Stream(screen).feed("\r\n".join(render(board(car), 80, 24, unicode=True, color=True)))
     assert [line.rstrip() for line in screen.display] == shown(board(car))
+
+
+@pytest.mark.parametrize(("fraction", "angle"), [(0.5, 0.2), (-1.0, -0.4), (7.0, 0.4), (float("nan"), 0.0)])
+def test_the_wheels_point_where_the_pulse_says(car, fraction, angle):
+    page = board(car)
+    page.seen.status.pulses = [
+        Pulse("throttle", 0, 0.9, 1500.0, 370),
+        Pulse("steering", 1, fraction, 1500.0, 375),
+    ]
+    assert steering_angle(page) == pytest.approx(angle)
