@@ -105,4 +105,10 @@ FAULTS = (
     Fault("chip loses its supply", once(lambda f: f.brown_out()), 0.2, simulated=True),
     Fault("another program writes to the chip", write_beside, simulated=True),
     Fault("chip's file is removed", remove_file, 0.3, simulated=True),
+    Fault(
+        "chip's file is removed, actuator frozen",
+        together(remove_file, actuator(signal.SIGSTOP)),
+        0.4,
+        simulated=True,
+    ),
 )

@@ -18,7 +18,7 @@ from zteleop.machine.ids import new_id
 from zteleop.machine.link import UNWATCHED, ActuatorEnd, Report
 from zteleop.machine.stop_file import StopFile
 from zteleop.messages import Message, Stop
-from zteleop.nodes.output import Output
+from zteleop.nodes.output import Output, keeps_settings
 from zteleop.nodes.state_publisher import StatePublisher
 from zteleop.recording.journal import Journal
 
@@ -29,6 +29,7 @@ KEEP_EVERY = 1.0
 DEAF = "deaf"
 UNHEARD = "the watchdog does not hear this robot on the bus"
 TAKEN_OVER = "its actuator came late, and was started again"
+FORGOT = "the chip has lost its settings, and the ESC perhaps its supply, while no actuator was there"
 
 
 class UnwatchedError(DeviceError):
@@ -58,6 +59,9 @@ class Actuator:
         self._journal = journal
         self._health = health
         now = self._since = clock.now()
+        if standing and not keeps_settings(driver):
+            self._tell_chip(f"{FORGOT}; whoever drove must let go first")
+            standing = None
         self._drive = Drive(settings, driver.tick_us, standing.epoch if standing else new_id(), now)
         self._output = Output(driver, self._drive, self._tell_chip)
         # Whoever drove had an ESC that was armed, and the watchdog has kept the chip at neutral since.

@@ -18,6 +18,23 @@ REPAIR_EVERY = 0.1
 FAULT, SLOWNESS, ARMING = "chip", "bus", "arming"
 
 
+def keeps_settings(driver: PulseDriver) -> bool:
+    """Say whether a chip still is as it was brought up, and not as one that has just got its supply."""
+    try:
+        look_twice(driver)
+    except DeviceError:
+        return False
+    return True
+
+
+def look_twice(driver: PulseDriver) -> None:
+    """Raise DeviceError when the chip forgot its settings; one disturbance on the wires is no fault."""
+    try:
+        driver.check()
+    except DeviceError:
+        driver.check()
+
+
 class Output:
     """Writes pulses; keeps the drive at rest while its chip is at fault, and while the ESC arms."""
 
@@ -74,7 +91,7 @@ class Output:
         """
         if not self._broken and not self._slowness.is_slow:
             try:
-                self._look_twice()
+                look_twice(self._driver)
             except DeviceError as error:
                 self._break(str(error), now)
         self.confirm()
@@ -132,12 +149,6 @@ class Output:
         elif self._slowness.is_over and SLOWNESS in self._admission.holds:
             self._tell("the bus of the chip is quick again")
             self._admission.free(SLOWNESS, now)
-
-    def _look_twice(self) -> None:
-        try:
-            self._driver.check()
-        except DeviceError:  # a single disturbance on the wires is no fault
-            self._driver.check()
 
     def _write_neutral(self) -> bool:
         """Write neutral before anything else is thought about; return whether the bus has time for more.

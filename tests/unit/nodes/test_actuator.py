@@ -17,6 +17,7 @@ from zteleop.messages import Beat, DriveStatus, Int16MultiArray, Message, MultiA
 from zteleop.nodes.actuator import (
     AT_MOST_EVERY,
     CHECK_EVERY,
+    FORGOT,
     IN_A_ROW,
     KEEP_EVERY,
     Actuator,
@@ -304,6 +305,19 @@ def test_one_in_the_place_of_another_that_nobody_drove_lets_the_esc_arm(node: Fa
     standing = Standing(5, *[clock.time - 1.0] * 3)
     robot = Robot(node, clock, chip=MemoryChip(arming=2.0), standing=standing)
     assert (robot.status.state, robot.status.why) == ("starting", "neutral for 2 s while the ESC arms")
+
+
+def test_one_in_anothers_place_whose_chip_was_switched_off_meanwhile_starts_anew(
+    node: FakeNode, clock: Clock
+) -> None:
+    keyboard = list(SOURCES).index("keyboard")
+    standing = Standing(5, *[clock.time - 1.0] * 3, keyboard, 7, clock.time - 0.9, clock.time - 0.1)
+    chip = MemoryChip(arming=2.0)
+    chip.broken.add("check")
+    robot = Robot(node, clock, chip=chip, standing=standing)
+    assert robot.beat.epoch != 5
+    assert (robot.status.state, robot.status.why) == ("starting", "neutral for 2 s while the ESC arms")
+    assert robot.journal.events[0] == ("chip", {"says": f"{FORGOT}; whoever drove must let go first"})
 
 
 def test_one_that_nobody_watches_ends_with_a_code_of_its_own(robot: Robot) -> None:
