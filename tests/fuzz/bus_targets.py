@@ -1,7 +1,9 @@
 """What a stranger on the bus may say: each target takes any bytes, and returns unless it found a fault."""
 
+import argparse
 from collections.abc import Callable
 from contextlib import suppress
+from functools import partial
 from typing import Any
 
 import zenoh
@@ -13,7 +15,7 @@ from zteleop.bus.names import chunk, resolve, robot_name
 from zteleop.bus.session import Sample
 from zteleop.bus.settings import BusSettings
 from zteleop.bus.zenoh_open import _check_threads, _configure
-from zteleop.cli.echo import render as echo
+from zteleop.cli import echo
 from zteleop.control.deadlines import Deadlines
 from zteleop.control.gate import Gate
 from zteleop.errors import ConfigError, MessageError
@@ -21,6 +23,27 @@ from zteleop.messages import Message
 from zteleop.terminal.cells import printable as shown
 
 EPOCH = 7 << 50
+LOOKS = (
+    *(
+        (),
+        ("--json",),
+        ("--csv", "--header"),
+        ("--raw",),
+        ("--flow-style", "--no-arr", "--no-str"),
+        ("Twist",),
+    ),
+    *(("--field", "linear.x", "--field", "data[0]"), ("--filter", "m.linear.x + m.data[0] > 0", "-f")),
+)
+
+
+def wanted(look: tuple[str, ...]) -> echo.Wanted:
+    """Return what somebody wants to see who types these words behind a topic."""
+    parser = argparse.ArgumentParser()
+    echo.add_arguments(parser)
+    return echo.Wanted(parser.parse_args(["odom", *look]))
+
+
+WANTED = [partial(wanted, look) for look in LOOKS]
 
 
 def message(data: bytes) -> None:
@@ -31,9 +54,9 @@ def message(data: bytes) -> None:
         found = codec.decode(payload, encoding, ALL)
         assert isinstance(found, Message)
     assert found is None or codec.decode(codec.encode(found), encoding, ALL) == found
-    for as_json in (False, True):
+    for wanted in WANTED:
         with suppress(MessageError):
-            safe(echo(payload, encoding, as_json))
+            safe(wanted().text(Sample("robot/bench/odom", payload, encoding)) or "")
 
 
 def proof(data: bytes) -> None:

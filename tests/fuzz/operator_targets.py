@@ -10,7 +10,7 @@ from fuzz.reading import ALL, safe
 
 from zteleop.bus import codec
 from zteleop.bus.escape import printable
-from zteleop.cli import VERBS
+from zteleop.cli import VERBS, file_of
 from zteleop.config import Config
 from zteleop.control.report import to_vehicle
 from zteleop.errors import ConfigError, MessageError
@@ -88,7 +88,7 @@ def arguments(data: bytes) -> None:
     """Type any words after a verb: options, or usage and exit code 2."""
     verb, *words = data.decode("utf-8", "surrogateescape").split("\n")
     parser = argparse.ArgumentParser(prog="zteleop")
-    module = import_module(f"zteleop.cli.{verb if verb in VERBS else 'actuator'}")
+    module = import_module(f"zteleop.cli.{file_of(verb if verb in VERBS else 'actuator')}")
     module.add_arguments(parser)
     with redirect_stderr(StringIO()), suppress(SystemExit):
         parser.parse_args([word for word in words if word not in ("-h", "--help")])

@@ -103,7 +103,7 @@ def test_list_shows_types_and_who_is_there(rig: Rig) -> None:
 def test_list_says_so_when_nobody_is_there(rig: Rig) -> None:
     result = rig.result("list", "--robot", "nobody", "--no-multicast-scouting", "-e", rig.endpoint)
     assert result.returncode == 1
-    assert "nobody speaks for nobody; start one with: zteleop demo" in result.stdout + result.stderr
+    assert "nobody speaks for nobody; heard here: bench" in result.stdout + result.stderr
 
 
 def test_list_survives_names_that_are_none(rig: Rig, stranger: zenoh.Session) -> None:

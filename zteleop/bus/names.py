@@ -11,6 +11,8 @@ from zteleop.bus.topics import ALIASES, TOPICS
 from zteleop.errors import ConfigError
 
 _ROBOT = re.compile(r"[a-z0-9][a-z0-9_-]{0,62}")
+_ALIKE = 0.85
+"""of a name, from which on it is a mistake for another"""
 _CHUNK = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_-]{0,62}")
 
 
@@ -73,6 +75,13 @@ def resolve(text: str, robot: str | None) -> Name:
         )
     path = [ALIASES.get(parts[1], parts[1]), *parts[2:]]
     return Name(robot_name(parts[0]), "/".join(chunk(part, "a topic's name") for part in path))
+
+
+def known_as(path: str) -> str:
+    """Return the known topic that somebody must have meant; nothing for a name of one's own."""
+    from difflib import get_close_matches
+
+    return next(iter(get_close_matches(path, [*TOPICS, *ALIASES], 1, _ALIKE)), "")
 
 
 def _known(part: str) -> bool:

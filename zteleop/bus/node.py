@@ -7,7 +7,7 @@ from zteleop.bus import presence
 from zteleop.bus.answer import Answer
 from zteleop.bus.log import NodeLog
 from zteleop.bus.membership import Membership
-from zteleop.bus.names import Name, chunk, resolve, robot_name
+from zteleop.bus.names import Name, chunk, known_as, resolve, robot_name
 from zteleop.bus.publisher import Publisher
 from zteleop.bus.session import Session, open_session
 from zteleop.bus.settings import BusSettings
@@ -89,6 +89,8 @@ class Node:
         if about.types and not set(kinds) <= set(about.types):
             takes = " or ".join(accepted.__name__ for accepted in about.types)
             raise ConfigError(f"{topic} takes {takes}, found {', '.join(k.__name__ for k in kinds)}")
+        if not (about.types or topic.startswith("/")) and (near := known_as(name.path)):
+            self.log.warn(f"publishes {topic}, which no robot hears; did you mean {near}?")
         if not about.command:
             return Publisher(self.membership.outlet(name, kinds, about.urgent), kinds)
         return self._command_publisher(name, kinds, source, wait)

@@ -103,6 +103,20 @@ def endpoints(session: Session) -> list[Endpoint]:
     return sorted(found)
 
 
+class Member(NamedTuple):
+    """One process that runs a node."""
+
+    robot: str
+    node: str
+    process: str
+
+
+def nodes(session: Session) -> list[Member]:
+    """Return every robot's nodes, also those that publish and hear nothing."""
+    parts = (key.split("/") for key in _tokens(session, "robot/*/live/node/*/*"))
+    return sorted(Member(robot, node, where) for _, robot, _, _, node, where in parts)
+
+
 def holders(session: Session, robot: str, node: str) -> list[str]:
     """Return the processes that run a node of that name for a robot."""
     return sorted(key.rpartition("/")[2] for key in _tokens(session, f"robot/{robot}/live/node/{node}/*"))

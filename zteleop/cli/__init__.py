@@ -12,22 +12,42 @@ VERBS = {
     "list": "list the topics of every robot on the bus",
     "echo": "print what a topic says",
     "pub": "say something on a topic",
+    "hz": "say how often a topic is said",
+    "bw": "say how many bytes a second a topic takes",
+    "watch": "show everything that is said on the bus, as it changes",
+    "delay": "say how old a topic's messages are when they arrive",
+    "info": "say who publishes and who hears a topic",
+    "type": "say which type of message a topic carries",
+    "find": "list the topics that carry a type of message",
+    "node list": "list the nodes of every robot on the bus",
+    "node info": "say what a node publishes and hears",
+    "interface list": "list the types of messages",
+    "interface show": "say what a type of message is made of",
+    "interface proto": "print a message of a type, to be filled in for pub",
     "why": "say why a robot moves as it does, or does not",
     "blackbox": "tell what happened in the minute before a robot stopped",
     "watchdog": "show what a robot's watchdog sees",
     "chaos": "do to a robot whatever can go wrong, and certify that it stops",
     "neutral": "bring a chip to rest with nothing else running",
     "doctor": "say what hinders zteleop on this machine",
+    "completion": "print what lets your shell complete what you type",
     "check": "check a config file",
     "schema": "write the JSON Schema of every message and of config.toml",
 }
 
-GROUPS = {"topic": ("list", "echo", "pub")}
-"""verbs that may be typed behind a word, as those who know ros2 do"""
+GROUPS = {
+    "topic": ("list", "echo", "pub", "hz", "bw", "delay", "watch", "info", "type", "find"),
+    "node": ("list", "info"),
+    "interface": ("list", "show", "proto"),
+}
+"""verbs that are typed behind a word, as those who know ros2 do; those of topics also without it"""
 ELSEWHERE = {
-    "node": "zteleop list -v shows which nodes publish and hear",
+    "bag": "a robot keeps its last minute: zteleop blackbox",
+    "daemon": "none is needed: each verb asks the bus itself",
+    "launch": "zteleop demo starts all there is; zteleop actuator, sim and keyboard one each",
+    "param": "settings stand in config.toml: zteleop check shows them",
     "run": "a program runs by its own name; zteleop keyboard drives",
-    "topic": "zteleop list, echo and pub are about topics",
+    "service": "robots here have topics only: zteleop list",
 }
 """what people type who come from elsewhere, and what there is instead"""
 
@@ -55,6 +75,19 @@ def main(argv: list[str] | None = None) -> int:
         return 1
 
 
+def find_verb(words: list[str]) -> tuple[str, list[str]]:
+    """Return the verb that words begin with, known or not, and what stands behind it."""
+    verb, *rest = words
+    if verb in GROUPS and rest:
+        return _grouped_verb(verb, rest[0]), rest[1:]
+    return verb, rest
+
+
+def file_of(verb: str) -> str:
+    """Return the name of the file that holds a verb."""
+    return verb.replace(" ", "_")
+
+
 def _open_standard_files() -> None:
     """Open /dev/null in the place of a standard file that is closed.
 
@@ -70,23 +103,38 @@ def _open_standard_files() -> None:
 
 def _dispatch(arguments: list[str]) -> int:
     if not arguments or arguments[0] in ("-h", "--help"):
-        print(USAGE.format(verbs="\n".join(f"  {verb:10} {text}" for verb, text in VERBS.items())), end="")
+        print(USAGE.format(verbs=_table(VERBS)), end="")
         return 0
     if arguments[0] in ("-V", "--version"):
         from importlib.metadata import version
 
         print(f"zteleop {version('zteleop')}")
         return 0
-    if arguments[1:] and arguments[1] in GROUPS.get(arguments[0], ()):
-        arguments = arguments[1:]
-    if arguments[0] in GROUPS and arguments[1:]:
-        arguments = [f"{arguments[0]} {arguments[1]}"]
-    if arguments[0] not in VERBS:
-        print(f"zteleop: {_unknown(arguments[0])}", file=sys.stderr)
+    if arguments[0] in GROUPS and (not arguments[1:] or arguments[1] in ("-h", "--help")):
+        print(f"usage: zteleop {arguments[0]} VERB ...\n\n{_table(_grouped(arguments[0]))}")
+        return 0
+    verb, rest = find_verb(arguments)
+    if verb not in VERBS:
+        print(f"zteleop: {_unknown(verb)}", file=sys.stderr)
         return 2
     from zteleop.cli._run import run_verb
 
-    return run_verb(arguments[0], VERBS[arguments[0]], arguments[1:])
+    return run_verb(verb, VERBS[verb], rest)
+
+
+def _table(verbs: dict[str, str]) -> str:
+    width = max(map(len, verbs))
+    return "\n".join(f"  {verb:{width}}  {text}" for verb, text in verbs.items())
+
+
+def _grouped_verb(group: str, word: str) -> str:
+    """Return the verb that a word behind a group's name is; those of topics need no group."""
+    flat = group == "topic" and word in GROUPS[group]
+    return word if flat else f"{group} {word}"
+
+
+def _grouped(group: str) -> dict[str, str]:
+    return {f"{group} {word}": VERBS[_grouped_verb(group, word)] for word in GROUPS[group]}
 
 
 def _unknown(verb: str) -> str:
@@ -95,7 +143,6 @@ def _unknown(verb: str) -> str:
     if verb in ELSEWHERE:
         return f"no verb {verb!r}; {ELSEWHERE[verb]}"
     if verb.partition(" ")[0] in GROUPS:
-        group = verb.partition(" ")[0]
-        return f"no verb {verb!r}; there are {', '.join(f'{group} {one}' for one in GROUPS[group])}"
+        return f"no verb {verb!r}; there are {', '.join(_grouped(verb.partition(' ')[0]))}"
     near = get_close_matches(verb, VERBS, 1)
     return f"no verb {verb!r}; " + (f"did you mean {near[0]}?" if near else f"known: {', '.join(VERBS)}")

@@ -156,7 +156,9 @@ def robots(patient: Patient) -> Finding:
     except (ZteleopError, ImportError) as error:
         return Finding(False, str(error))
     if settings.robot and settings.robot not in found:
-        return Finding(False, f"{settings.robot} is not heard, {who_is_here(found)}; is its actuator on?")
+        return Finding(
+            False, f"{settings.robot} is not heard, {who_is_here(found, settings.robot)}; is its actuator on?"
+        )
     return Finding(
         True if found else None, who_is_here(found) + ("" if found else "; zteleop demo starts one")
     )

@@ -42,17 +42,22 @@ def who_hears(name: Name, endpoints: Iterable[Endpoint]) -> str:
     return f"nobody hears it{_others(name, 'sub', endpoints)}"
 
 
-def who_is_here(robots: Iterable[str]) -> str:
-    """Return which robots could have been meant, where one is not heard."""
+def who_is_here(robots: Iterable[str], wanted: str = "") -> str:
+    """Return which robots could have been meant, where the one that is wanted is not heard."""
+    from difflib import get_close_matches
+
     found = sorted(set(robots))
-    return f"heard here: {', '.join(found)}" if found else "no robot is heard here"
+    if not found:
+        return "no robot is heard here"
+    near = get_close_matches(wanted, found, 1)
+    return f"heard here: {', '.join(found)}" + (f"; did you mean {near[0]}?" if near else "")
 
 
 def _others(name: Name, kind: Kind, endpoints: list[Endpoint]) -> str:
     others = [one for one in endpoints if one.process != process()]
     robots = {one.robot for one in others if one.kind == "pub"}
     if name.robot not in robots:
-        return f"; robot {name.robot} is not heard; {who_is_here(robots)}"
+        return f"; robot {name.robot} is not heard; {who_is_here(robots, name.robot)}"
     topics = {topic_of(one.topic).name for one in others if (one.robot, one.kind) == (name.robot, kind)}
     if topic_of(name.path).types or not topics:
         return " yet"

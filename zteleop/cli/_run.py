@@ -5,6 +5,7 @@ import io
 import sys
 from importlib import import_module
 
+from zteleop.cli import file_of
 from zteleop.processes.ending import in_words
 
 
@@ -12,7 +13,7 @@ def run_verb(verb: str, text: str, arguments: list[str]) -> int:
     """Run a verb and return its exit code; a traceback only with --debug."""
     if isinstance(sys.stdout, io.TextIOWrapper):  # what a terminal cannot show must not end what shows it
         sys.stdout.reconfigure(errors="backslashreplace")
-    module = import_module(f"zteleop.cli.{verb}")
+    module = import_module(f"zteleop.cli.{file_of(verb)}")
     parser = argparse.ArgumentParser(
         prog=f"zteleop {verb}",
         description=f"{text[0].upper()}{text[1:]}.",

@@ -1,106 +1,169 @@
 import argparse
 import sys
-import time
-from collections.abc import Callable, Iterator
-from contextlib import suppress
-from typing import Any
+from typing import TYPE_CHECKING
 
-import msgspec
-
-from zteleop.bus import codec, presence
+from zteleop.bus import clock, codec
 from zteleop.bus.escape import printable
-from zteleop.bus.names import resolve
-from zteleop.bus.session import Ring, Sample, open_session
+from zteleop.bus.names import Name
+from zteleop.bus.session import Sample
 from zteleop.bus.topics import topic_of
-from zteleop.cli import _company, _options
-from zteleop.errors import BusError, MessageError
+from zteleop.cli import _options
+from zteleop.cli._listening import TELL_AFTER, Arrival, listening
+from zteleop.errors import BusError, ConfigError, MessageError
+from zteleop.messages import MESSAGES
+from zteleop.text import paths
+from zteleop.text.form import Form
+from zteleop.text.quantity import quantity
+from zteleop.text.rendering import CUT, Style
+from zteleop.text.selection import Selection
+
+if TYPE_CHECKING:
+    from zteleop.text.filter import Filter
 
 EXAMPLES = (
     "zteleop echo odom",
     "zteleop echo archangel/drive_status --once",
+    "zteleop echo drive_status --field state --field why --count 3",
+    "zteleop echo odom --csv --header --filter 'm.twist.twist.linear.x >= 0' --count 3",
 )
-DEPTH = 100
-TELL_AFTER = 1.0
-"""s of silence at the start until it says for whom it waits"""
+CLEAR = "\x1b[H\x1b[2J"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add(parser)
     parser.add_argument("topic", help="such as archangel/odom, or odom with --robot")
-    parser.add_argument("--once", action="store_true", help="print one message and end")
-    parser.add_argument("--json", action="store_true", help="one message a line, as JSON")
-    parser.add_argument("--timeout", metavar="SECONDS", type=float, help="give up after so long a silence")
+    parser.add_argument("type", nargs="?", help="show only messages of that type, such as Twist")
+    shown = parser.add_argument_group("what of it")
+    shown.add_argument(
+        "--field", metavar="PATH", action="append", help="such as twist.linear.x; may be repeated"
+    )
+    shown.add_argument(
+        "--filter", metavar="EXPR", help="messages of which it is true: 'm.twist.linear.x > 0.2'"
+    )
+    shown.add_argument("--once", action="store_true", help="print one message and end")
+    shown.add_argument("--count", metavar="N", type=_options.count, help="print N messages and end")
+    shown.add_argument(
+        "--timeout", metavar="TIME", type=_time, help="give up after so long a silence: 5, 500ms"
+    )
+    form = parser.add_argument_group("how it looks")
+    form.add_argument("--json", action="store_true", help="one message a line, as JSON")
+    form.add_argument("--csv", action="store_true", help="one message a row, its values joined by commas")
+    form.add_argument("--header", action="store_true", help="with --csv: first a row of the names")
+    form.add_argument("--raw", action="store_true", help="its bytes, as they came")
+    form.add_argument("--flow-style", action="store_true", help="YAML in one line")
+    form.add_argument("--no-arr", action="store_true", help="of arrays only their type")
+    form.add_argument("--no-str", action="store_true", help="of texts only their length")
+    form.add_argument("-f", "--full-length", action="store_true", help="cut nothing short")
+    cut = f"cut arrays and texts to N ({CUT})"
+    form.add_argument("--truncate-length", metavar="N", type=_options.count, default=CUT, help=cut)
+    form.add_argument("-c", "--clear", action="store_true", help="clear the screen before each message")
 
 
 def run(arguments: argparse.Namespace) -> None:
-    settings = _options.load(arguments)
-    robot = _options.robot_of(arguments.topic, settings)
-    with open_session(settings.bus, settle=robot is None) as session:
-        name = resolve(arguments.topic, robot or _options.find_robot(session, settings))
-        about = topic_of(name.path)
-        key = f"{name.key}/**" if about.command and "/" not in name.path else name.key
-        ring = session.subscribe(key, DEPTH)
-        session.declare_token(presence.endpoint_key(name, "sub", "echo", about.types))
+    wanted = Wanted(arguments)
+    wait, left = arguments.timeout, 1 if arguments.once else arguments.count
+    with listening("echo", [arguments.topic], arguments) as (ears, (name,)):
+        wanted.check(name)
+        ears.patient = wait is None or wait > TELL_AFTER
 
-        def why_silent() -> str:
-            return printable(f"{name}: {_company.why_silent(name, presence.endpoints(session))}")
+        def give_up() -> None:
+            raise BusError(f"for {wait:g} s nothing was said on {ears.why_silent(name)}")
 
-        for sample in _samples(ring, arguments.timeout, why_silent):
-            if _print(sample, arguments.json) and arguments.once:
+        silence = ears.loop.alarm(give_up)
+
+        def show(arrival: Arrival) -> None:
+            nonlocal left
+            if wait is not None:
+                silence.ring_at(arrival.at + wait)
+            if not wanted.show(arrival.sample) or left is None:
                 return
+            left -= 1
+            if not left:
+                ears.loop.stop()
+
+        ears.hear(name, show)
+        if wait is not None:
+            silence.ring_at(clock.now() + wait)
+        ears.run()
 
 
-def _samples(ring: Ring, timeout: float | None, why_silent: Callable[[], str]) -> Iterator[Sample]:
-    """Yield what is said; whoever waits for long is told once for whom."""
-    patient = timeout is None or timeout > TELL_AFTER
-    sample = _wait(ring, TELL_AFTER if patient else timeout)
-    if sample is None and patient:
-        print(f"zteleop echo: waits for {why_silent()}", file=sys.stderr, flush=True)
-        sample = _wait(ring, None if timeout is None else timeout - TELL_AFTER)
-    while sample:
-        yield sample
-        sample = _wait(ring, timeout)
-    if timeout is not None:
-        raise BusError(f"for {timeout:g} s nothing was said on {why_silent()}")
+class Wanted:
+    """What somebody wants to see of a topic, and how; raises MessageError for words that make no sense."""
+
+    def __init__(self, arguments: argparse.Namespace) -> None:
+        self._raw = arguments.raw
+        self._before = CLEAR if arguments.clear and sys.stdout.isatty() else ""
+        style = Style(
+            None if arguments.full_length else arguments.truncate_length,
+            arguments.no_arr,
+            arguments.no_str,
+            arguments.flow_style,
+        )
+        self._form = Form(
+            "json" if arguments.json else "csv" if arguments.csv else "yaml", style, arguments.header
+        )
+        self._selection = Selection(
+            arguments.type, tuple(map(paths.parse, arguments.field or ())), _filter(arguments.filter)
+        )
+        self._known: dict[str, bool] = {}
+        """whether the messages of a type have what is asked for"""
+
+    def check(self, name: Name) -> None:
+        """Raise MessageError where no message of the topic can have what is asked for."""
+        self._selection.check_types(topic_of(name.path).types, str(name))
+        if not self._raw:
+            self._form.prepare()
+
+    def show(self, sample: Sample) -> bool:
+        """Print a message that is wanted; False for any other, and one that cannot be read is told of."""
+        try:
+            text = self.text(sample)
+        except MessageError as error:
+            print(printable(f"{sample.key}: {error}"), file=sys.stderr)
+            return False
+        if text is None:
+            return False
+        print(f"{self._before}{text}", flush=True)
+        return True
+
+    def text(self, sample: Sample) -> str | None:
+        """Return what is shown of a message, safe to print; raises MessageError when it cannot be read."""
+        if self._raw:
+            return f"{sample.payload!r}\n---"
+        values = codec.decode_any(sample.payload, sample.encoding)
+        ros_type = sample.encoding.partition(";")[2]
+        try:
+            if not self._suits(values, ros_type, sample.key) or not self._selection.wants(values):
+                return None
+            return printable(self._form.text(self._selection.parts(values), ros_type), keep="\n")
+        except RecursionError:  # read as JSON it may be, but YAML is written with a deeper stack
+            size = len(sample.payload)
+            raise MessageError(f"{size} bytes of {sample.encoding!r}, nested too deeply to show") from None
+
+    def _suits(self, values: object, ros_type: str, key: str) -> bool:
+        """Say whether messages of a type have what is asked for; of one that has not, it is said once."""
+        if ros_type not in self._known:
+            if len(self._known) > len(MESSAGES):  # whoever sends has thought of so many
+                self._known.clear()
+            self._known[ros_type] = False
+            self._selection.check(values, ros_type, key)
+            self._known[ros_type] = True
+        return self._known[ros_type]
 
 
-def _wait(ring: Ring, timeout: float | None) -> Sample | None:
-    """Return the next sample; None after a silence, or when the session is closed."""
-    if timeout is None:
-        with suppress(EOFError):
-            return ring.recv()
+def _filter(text: str | None) -> "Filter | None":
+    if text is None:
         return None
-    give_up = time.monotonic() + timeout
-    while (sample := ring.try_recv()) is None and time.monotonic() <= give_up:  # NaN as well
-        time.sleep(0.002)
-    return sample
+    from zteleop.text.filter import Filter  # which only few ask for
+
+    return Filter(text)
 
 
-def _print(sample: Sample, as_json: bool) -> bool:
-    """Print a message; False when it cannot be read, which is said on stderr."""
-    if not sample.is_put:
-        return False
+def _time(text: str) -> float:
     try:
-        text = render(sample.payload, sample.encoding, as_json)
-    except MessageError as error:
-        print(printable(f"{sample.key}: {error}"), file=sys.stderr)
-        return False
-    print(text, flush=True)
-    return True
-
-
-def render(payload: bytes, encoding: str, as_json: bool) -> str:
-    """Return a message as text that is safe to print; raises MessageError when it cannot be read."""
-    values = codec.decode_any(payload, encoding)
-    try:
-        text = msgspec.json.encode(values).decode() if as_json else _yaml(values)
-    except RecursionError:  # read as JSON it may be, but YAML is written with a deeper stack
-        raise MessageError(f"{len(payload)} bytes of {encoding!r}, nested too deeply to show") from None
-    return printable(text, keep="\n")
-
-
-def _yaml(values: Any) -> str:
-    import yaml
-
-    dumper: Any = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
-    return yaml.dump(values, Dumper=dumper, sort_keys=False, allow_unicode=True) + "---"
+        seconds = quantity(text, "time")
+    except ConfigError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+    if seconds <= 0:
+        raise argparse.ArgumentTypeError(f"expected more than nothing, found {text}")
+    return seconds

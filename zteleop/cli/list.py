@@ -15,19 +15,23 @@ EXAMPLES = (
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add(parser)
     parser.add_argument("-t", "--show-types", action="store_true", help="with the type of each topic")
+    parser.add_argument("-c", "--count-topics", action="store_true", help="say only how many")
     parser.add_argument("-v", "--verbose", action="store_true", help="with who publishes and who hears it")
 
 
 def run(arguments: argparse.Namespace) -> int:
     settings = _options.load(arguments)
     with open_session(settings.bus, settle=True) as session:
-        endpoints = presence.endpoints(session)
-    if settings.robot:
-        endpoints = [endpoint for endpoint in endpoints if endpoint.robot == settings.robot]
+        everybody = presence.endpoints(session)
+    endpoints = [one for one in everybody if settings.robot in (None, one.robot)]
     if not endpoints:
-        where = settings.robot or "a robot"
+        others = f"; {_company.who_is_here((one.robot for one in everybody), settings.robot or '')}"
+        where = f"{settings.robot}{others if everybody else ''}" if settings.robot else "a robot"
         print(f"nobody speaks for {where}; start one with: zteleop demo, or zteleop actuator")
         return 1
+    if arguments.count_topics:
+        print(len(_company.by_topic(endpoints)))
+        return 0
     for name, members in _company.by_topic(endpoints).items():
         print(_line(name, members, arguments.show_types))
         if arguments.verbose:

@@ -60,6 +60,9 @@ def run(arguments: argparse.Namespace) -> None:
         publisher = node.publisher(f"/{name}", kind, wait=False)
         command = topic_of(name.path).command
         heard = _await_robot(node, publisher) if command else _await_hearer(node, publisher, name)
+        if command and times is None and arguments.rate < 1 / OBEYED_FOR:
+            words = f"a robot obeys each for {OBEYED_FOR:g} s, and stops in between; --rate 10 drives on"
+            print(f"zteleop pub: {words}", file=sys.stderr)
         resume = Resume(publisher.sender) if arguments.resume and publisher.sender else None
         _say(node, publisher, message, arguments.rate, times, resume, OBEYED_FOR if command else 0.0)
         if times is not None and not (heard or _hears(node, publisher, name)):
@@ -113,7 +116,7 @@ def _await_robot(node: Node, publisher: Publisher[Message]) -> bool:
     """Wait until the robot that a command proves its age to has started; BusError when it does not answer."""
     heard = node.membership.heard()
     if not node.membership.until(lambda: publisher.matched and heard.beat, HEARD_WITHIN):
-        here = _company.who_is_here(presence.robots(node.membership.session))
+        here = _company.who_is_here(presence.robots(node.membership.session), node.robot or "")
         raise BusError(f"robot {node.robot} does not answer; is its actuator on? {here}")
     heard.wait()
     return True

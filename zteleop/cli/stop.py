@@ -113,10 +113,8 @@ class Stops:
                 words = f"{stopping.robot} answered by datagram; on the bus it is not heard"
                 print(printable(words), file=sys.stderr)
         if any(stopping.state != "done" for stopping in unheard):
-            here = who_is_here(
-                presence.robots(node.membership.session)
-            )  # only now: to find out may take time
-            print(printable(here), file=sys.stderr)
+            robots = presence.robots(node.membership.session)  # only now: to find out may take time
+            print(printable(who_is_here(robots, unheard[0].robot)), file=sys.stderr)
         return int(any(stopping.state != "done" for stopping in self._asked.values()))
 
     def heed(self) -> bool:
@@ -140,10 +138,8 @@ def release(node: Node, robot: str, everybodys: bool = False) -> str:
     _listen(node, stopping)
     node.membership.until(lambda: stopping.heed(None, clock.now()), 2 * ACKNOWLEDGED_WITHIN)
     if stopping.state != "done":
-        raise BusError(
-            stopping.words
-            + (f"; {who_is_here(presence.robots(node.membership.session))}" if stopping.unheard else "")
-        )
+        here = who_is_here(presence.robots(node.membership.session), robot) if stopping.unheard else ""
+        raise BusError(f"{stopping.words}; {here}" if here else stopping.words)
     return stopping.words
 
 
@@ -159,6 +155,8 @@ def _tell(stopping: Stopping) -> None:
     if stopping.state == "done":
         advice = f"zteleop stop --release {stopping.robot} lets it drive again, from neutral"
         print(printable(f"{stopping.words}; {advice}"), flush=True)
+        if sys.stdout.isatty():  # where somebody waits for the prompt
+            print(f"said again for {REPEAT:g} s, to whoever comes late", file=sys.stderr, flush=True)
     else:
         print(printable(f"zteleop stop: {stopping.words}"), file=sys.stderr, flush=True)
 

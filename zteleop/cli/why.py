@@ -39,7 +39,7 @@ def answer(node: Node) -> str:
 
     node.membership.until(complete, HEARD_WITHIN)
     if status is None and dog is None:
-        here = who_is_here(presence.robots(node.membership.session))
+        here = who_is_here(presence.robots(node.membership.session), node.robot or "")
         raise BusError(f"no actuator of {node.robot} is heard within {HEARD_WITHIN:g} s; is it on? {here}")
     lines = [
         f"{node.robot} is {status.state}: {status.why}" if status else f"{node.robot}: no actuator heard"

@@ -22,8 +22,8 @@ class Selection(NamedTuple):
 
     def check_types(self, kinds: Iterable[type[Message]], topic: str) -> None:
         """Raise MessageError when no message of a topic's types, or of the type asked for, can suit."""
-        if self.type_name and not kinds:
-            kinds = _known(self.type_name)
+        named = _known(self.type_name) if self.type_name else []  # raises for a name that is a mistake
+        kinds = kinds or named
         refusals = []
         for kind in kinds:
             try:

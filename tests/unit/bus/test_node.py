@@ -9,6 +9,7 @@ from unit.bus.fakes import Outlet, Session, sample
 
 from zteleop.bus import codec, presence
 from zteleop.bus.heard import Heard
+from zteleop.bus.names import known_as
 from zteleop.bus.node import Node
 from zteleop.errors import ConfigError
 from zteleop.machine import stderr
@@ -246,3 +247,28 @@ def test_the_page_shows_all_of_a_node() -> None:
         name for name in (*vars(Node), *vars(Node("nose", session=Session()))) if not name.startswith("_")
     }
     assert shown == public - {"membership"}
+
+
+@pytest.mark.parametrize(
+    ("topic", "meant"),
+    [
+        ("cmd_vell", "cmd_vel"),
+        ("drive-status", "drive_status"),
+        ("chatter", ""),
+        ("poses", ""),
+        ("odom2", "odom"),
+    ],
+)
+def test_a_topic_that_is_nearly_a_known_one_is_asked_about(topic: str, meant: str) -> None:
+    assert known_as(topic) == meant
+
+
+def test_whoever_publishes_a_misspelt_topic_is_told_and_not_who_writes_all_of_it(
+    node: Node,
+) -> None:
+    lines: list[str] = []
+    node.log.show = lines.append
+    for topic in ("cmd_vell", "/archangel/cmd_vell"):
+        node.publisher(topic, Twist)
+    (line,) = lines
+    assert line.endswith("publishes cmd_vell, which no robot hears; did you mean cmd_vel?")

@@ -36,7 +36,10 @@ def test_a_commands_sources_and_names_are_one_topic() -> None:
         ("abe/odmo", "nobody publishes it; did you mean odom?"),
         ("abe/cmdvel", "nobody publishes it; did you mean cmd_vel?"),
         ("abe/cmd_vel", "nobody publishes it yet"),
-        ("abee/odom", "nobody publishes it; robot abee is not heard; heard here: abe, zoe"),
+        (
+            "abee/odom",
+            "nobody publishes it; robot abee is not heard; heard here: abe, zoe; did you mean abe?",
+        ),
     ],
 )
 def test_a_silence_says_who_says_nothing_or_what_was_meant(topic: str, words: str) -> None:
@@ -65,7 +68,7 @@ def test_where_nobody_is_there_no_robot_is_heard() -> None:
         ("abe/scna", "nobody hears it; did you mean scan?"),
         ("abe/cmdvel", "nobody hears it; did you mean cmd_vel?"),
         ("abe/odom", "nobody hears it yet"),
-        ("zeo/scan", "nobody hears it; robot zeo is not heard; heard here: abe, zoe"),
+        ("zeo/scan", "nobody hears it; robot zeo is not heard; heard here: abe, zoe; did you mean zoe?"),
     ],
 )
 def test_who_speaks_is_told_who_hears_or_what_was_meant(topic: str, words: str) -> None:
@@ -75,3 +78,4 @@ def test_who_speaks_is_told_who_hears_or_what_was_meant(topic: str, words: str) 
 
 def test_robots_that_are_here_are_named_once_in_order() -> None:
     assert who_is_here(["zoe", "abe", "zoe"]) == "heard here: abe, zoe"
+    assert who_is_here(["zoe", "abe"], "student") == "heard here: abe, zoe"

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import zteleop.cli
-from zteleop.cli import GROUPS, VERBS, main
+from zteleop.cli import GROUPS, VERBS, file_of, main
 
 FILES = {path.stem for path in Path(zteleop.cli.__file__).parent.glob("*.py")}
 
@@ -21,16 +21,16 @@ def test_help_lists_every_verb_with_what_it_does(
     assert main(arguments) == 0
     lines = capsys.readouterr().out.splitlines()
     for verb, text in VERBS.items():
-        assert any(line.split() == [verb, *text.split()] for line in lines)
+        assert any(line.split() == f"{verb} {text}".split() for line in lines)
 
 
 def test_each_verb_is_one_file_and_each_file_one_verb() -> None:
-    assert set(VERBS) == {name for name in FILES if not name.startswith("_")}
+    assert set(map(file_of, VERBS)) == {name for name in FILES if not name.startswith("_")}
 
 
 @pytest.mark.parametrize("verb", VERBS)
 def test_every_verb_has_arguments_and_runs(verb: str) -> None:
-    module = import_module(f"zteleop.cli.{verb}")
+    module = import_module(f"zteleop.cli.{file_of(verb)}")
     assert callable(module.add_arguments)
     assert callable(module.run)
 
@@ -38,7 +38,7 @@ def test_every_verb_has_arguments_and_runs(verb: str) -> None:
 @pytest.mark.parametrize("verb", VERBS)
 def test_every_verb_has_help_of_its_own(verb: str, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as ending:
-        main([verb, "--help"])
+        main([*verb.split(), "--help"])
     assert ending.value.code == 0
     out = " ".join(capsys.readouterr().out.split())
     assert out.startswith(f"usage: zteleop {verb} ")
@@ -58,8 +58,7 @@ def test_version_is_the_packages(flag: str, capsys: pytest.CaptureFixture[str]) 
         ("ech", "zteleop: no verb 'ech'; did you mean echo?"),
         ("fly", f"zteleop: no verb 'fly'; known: {', '.join(VERBS)}"),
         ("--robot", "zteleop: no verb '--robot'; known: "),
-        ("topic", "zteleop: no verb 'topic'; zteleop list, echo and pub are about topics"),
-        ("node", "zteleop: no verb 'node'; zteleop list -v shows which nodes publish and hear"),
+        ("param", "zteleop: no verb 'param'; settings stand in config.toml: zteleop check shows them"),
         ("\x1b[2J", "zteleop: no verb '\\x1b[2J'; known: "),
         ("", "zteleop: no verb ''; known: "),
     ],
@@ -80,15 +79,22 @@ def test_a_verb_may_stand_behind_its_group(verb: str, capsys: pytest.CaptureFixt
         main(["topic", verb, "--help"])
     assert ending.value.code == 0
     assert capsys.readouterr().out.startswith(f"usage: zteleop {verb} ")
-    assert main(["topic", "delay"]) == 2
-    words = "zteleop: no verb 'topic delay'; there are topic list, topic echo, topic pub\n"
-    assert capsys.readouterr().err == words
+
+
+@pytest.mark.parametrize("group", GROUPS)
+def test_a_group_by_itself_tells_what_is_in_it(group: str, capsys: pytest.CaptureFixture[str]) -> None:
+    words = [f"{group} {word}" for word in GROUPS[group]]
+    assert main([group]) == main([group, "--help"]) == 0
+    told = capsys.readouterr().out
+    assert all(f"  {verb} " in told for verb in words)
+    assert main([group, "fly"]) == 2
+    assert capsys.readouterr().err == f"zteleop: no verb '{group} fly'; there are {', '.join(words)}\n"
 
 
 @pytest.mark.parametrize("verb", VERBS)
 def test_an_unknown_option_is_a_usage_error(verb: str, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as ending:
-        main([verb, "--no-such-option"])
+        main([*verb.split(), "--no-such-option"])
     assert ending.value.code == 2
     assert capsys.readouterr().err.startswith(f"usage: zteleop {verb} ")
 

@@ -1,0 +1,148 @@
+"""hz, bw, delay, info, type, find, node and interface: asked of real robots by real processes."""
+
+import re
+import shlex
+import signal
+from collections.abc import Iterator
+
+import pytest
+from rig import Process, Rig, repeating, until
+
+from zteleop.messages import Header, String, Time, TwistStamped
+
+HZ = 50.0
+
+
+@pytest.fixture(scope="module")
+def rig(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Rig]:
+    with Rig(tmp_path_factory.mktemp("measures")) as bench:
+        bench.actuator()
+        yield bench
+
+
+def ask(rig: Rig, line: str, code: int = 0) -> str:
+    result = rig.result(*shlex.split(line), *rig.bus_options())
+    assert result.returncode == code, result
+    return result.stdout if code == 0 else result.stderr
+
+
+def ended(process: Process) -> str:
+    process.signal(signal.SIGINT)
+    assert process.ends() == 130, process.text
+    return process.text
+
+
+def test_hz_and_bw_and_delay_measure_what_a_publisher_does(rig: Rig) -> None:
+    talker = rig.node()
+    chatter, poses = talker.publisher("chatter", String), talker.publisher("commanded", TwistStamped)
+
+    def talk() -> None:
+        chatter.publish(String("x" * 89))  # 100 bytes of JSON
+        poses.publish(TwistStamped(Header(Time(1, 0), "base_link"), TwistStamped.zero().twist))
+
+    verbs = {verb: rig.join(*words.split()) for verb, words in MEASURES.items()}
+    with repeating(talk, 1 / HZ):
+        for verb, process in verbs.items():
+            until(lambda process=process: len(process.lines) >= 4, f"lines of {verb}")
+    said = {verb: ended(process) for verb, process in verbs.items()}
+    rates = [float(rate) for rate in re.findall(r"average rate: ([0-9.]+)", said["hz"])]
+    assert abs(rates[-1] - HZ) < HZ / 10, said["hz"]
+    assert re.search(r"\tmin: 0\.\d{3}s max: \d\.\d{3}s std dev: 0\.\d{5}s window: \d+", said["hz"])
+    assert "Subscribed to [/bench/chatter]\n" in said["bw"]
+    assert "Message size mean: 100 B min: 100 B max: 100 B" in said["bw"] or "0.10 KB" in said["bw"]
+    ages = [float(age) for age in re.findall(r"average delay: ([0-9.]+)", said["delay"])]
+    assert min(ages) > 1e9, "the stamp was of 1970"
+    assert re.search(r"^/bench/chatter +\d", said["table"], re.MULTILINE), said["table"]
+    assert re.search(r"^/bench/nothing +not heard$", said["table"], re.MULTILINE), said["table"]
+
+
+MEASURES = {
+    "hz": "topic hz chatter",
+    "bw": "bw chatter",
+    "delay": "delay commanded",
+    "table": "hz chatter nothing",
+}
+
+
+def test_a_topic_without_stamps_is_said_to_have_none(rig: Rig) -> None:
+    delay = rig.join("delay", "drive_status")
+    until(lambda: "msg does not have header" in delay.text, "words")
+    ended(delay)
+
+
+def test_whoever_measures_silence_is_told_for_whom_it_waits(rig: Rig) -> None:
+    hz = rig.join("hz", "drive_statu")
+    until(lambda: "waits for bench/drive_statu" in hz.text, "words")
+    assert "did you mean drive_status?" in ended(hz)
+
+
+def test_the_graph_is_complete_the_first_time(rig: Rig) -> None:
+    info = ask(rig, "topic info drive_status")
+    assert info.splitlines()[:2] == ["Type: zteleop_msgs/msg/DriveStatus", "Publisher count: 1"]
+    assert "Node name: actuator\n" in ask(rig, "info /bench/drive_status -v")
+    assert ask(rig, "topic type cmd_vel").splitlines() == [
+        "geometry_msgs/msg/TwistStamped",
+        "geometry_msgs/msg/Twist",
+    ]
+    assert ask(rig, "topic find Twist") == "/bench/cmd_vel\n"
+    assert ask(rig, "find nav_msgs/msg/Odometry -c") == "0\n"
+    nodes = ask(rig, "node list").splitlines()
+    assert {"/bench/actuator", "/bench/watchdog", "/bench/blackbox"} <= set(nodes)
+    assert ask(rig, "node list --count-nodes") == f"{len(nodes)}\n"
+    told = ask(rig, "node info actuator")
+    assert told.startswith("/bench/actuator\n  Subscribers:\n    /bench/cmd_vel/")
+    assert "    /bench/drive_status: zteleop_msgs/msg/DriveStatus\n" in told.partition("  Publishers:\n")[2]
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("info drive_statu", "zteleop info: Unknown topic '/bench/drive_statu'; did you mean drive_status?"),
+        ("type odom", "zteleop type: Unknown topic '/bench/odom'; nobody publishes it, or hears it, yet"),
+        ("info /ghost/odom", "Unknown topic '/ghost/odom'; robot ghost is not heard; heard here: bench"),
+        ("find Odometri", "zteleop find: no topic here carries Odometri; known: "),
+        ("node info actuatr", "zteleop node info: Unable to find node 'actuatr'; did you mean"),
+        ("echo drive_status --field sate", "zteleop echo: Invalid field 'sate'"),
+        (
+            "echo drive_status --filter m.x.y==1",
+            "zteleop echo: filter: Invalid field 'x.y': DriveStatus has no",
+        ),
+        ("echo drive_status Twist", "carries zteleop_msgs/msg/DriveStatus, not Twist"),
+    ],
+)
+def test_what_is_not_there_is_said_with_what_may_have_been_meant(rig: Rig, line: str, words: str) -> None:
+    said = ask(rig, line, code=1)
+    assert words in said
+    assert said.count("\n") == 1
+
+
+def test_echo_shows_the_part_that_was_asked_for_so_often_as_was_asked(rig: Rig) -> None:
+    said = ask(rig, "topic echo drive_status --field state --filter \"m.state == 'idle'\" --count 2")
+    assert said == "idle\n---\n" * 2
+    head, *rows = ask(
+        rig, "echo drive_status --csv --header --field state --field why --count 2"
+    ).splitlines()
+    assert (head, rows) == ("state,why", ["idle,nobody drives"] * 2)
+
+
+def test_types_are_told_as_ros_does_and_filled_in_for_pub(rig: Rig) -> None:
+    assert "    geometry_msgs/msg/Twist\n" in rig.result("interface", "list").stdout
+    shown = rig.result("interface", "show", "geometry_msgs/msg/Twist").stdout
+    assert "Vector3 linear\n\tfloat64 x\n\tfloat64 y\n\tfloat64 z\nVector3 angular\n" in shown
+    proto = rig.result("interface", "proto", "Twist").stdout
+    (values,) = shlex.split(proto)
+    said = rig.result("pub", "chatter", "Twist", values, "--once", *rig.bus_options())
+    assert "publishing #1: Twist(linear=Vector3(x=0.0" in said.stdout
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("interface show Twits", "zteleop interface show: no message type 'Twits'; did you mean"),
+        ("interface list geometri_msgs", "no package 'geometri_msgs'; did you mean geometry_msgs"),
+    ],
+)
+def test_a_type_that_is_none_is_answered_with_the_nearest(rig: Rig, line: str, words: str) -> None:
+    result = rig.result(*line.split())
+    assert (result.returncode, result.stdout) == (1, "")
+    assert words in result.stderr

@@ -1,0 +1,99 @@
+"""info, type, find and node: what they make of the graph."""
+
+import pytest
+
+from zteleop.bus.presence import Endpoint, Member
+from zteleop.cli import info, node_info
+from zteleop.cli._graph import Graph, types_of
+from zteleop.errors import BusError
+
+TWIST, STAMPED = "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped"
+
+
+def end(topic: str, kind: str, node: str, type_: str, robot: str = "abe") -> Endpoint:
+    return Endpoint(robot, kind, node, "pi-7", type_, topic)
+
+
+HERE = Graph(
+    [
+        end("cmd_vel/keyboard", "pub", "keyboard", STAMPED),
+        end("cmd_vel/keyboard", "sub", "actuator", STAMPED),
+        end("drive_status", "pub", "actuator", "zteleop/msg/DriveStatus"),
+        end("chatter", "sub", "echo", "any"),
+        end("drive_status", "pub", "actuator", "zteleop/msg/DriveStatus", "bob"),
+    ],
+    [
+        Member("abe", "actuator", "pi-7"),
+        Member("abe", "keyboard", "mac-1"),
+        Member("abe", "keyboard", "mac-2"),
+        Member("bob", "actuator", "pi-8"),
+    ],
+    "abe",
+)
+
+
+def test_the_types_of_a_topic_are_those_it_is_made_for_and_those_that_are_told() -> None:
+    assert types_of(HERE.topic("cmd_vel")[1]) == [STAMPED, TWIST]
+    assert types_of([end("chatter", "pub", "x", "std_msgs/msg/String")]) == ["std_msgs/msg/String"]
+    assert types_of(HERE.topic("chatter")[1]) == ["any"]
+
+
+def test_a_topic_is_told_in_the_words_of_ros() -> None:
+    _, members = HERE.topic("cmd_vel")
+    counts = [f"Type: {STAMPED}, {TWIST}", "Publisher count: 1", "Subscription count: 1"]
+    assert list(info.lines(members, verbose=False)) == counts
+    assert list(info.lines(members, verbose=True)) == [
+        counts[0],
+        "",
+        counts[1],
+        "",
+        "Node name: keyboard",
+        "Node namespace: /abe",
+        "Process: pi-7",
+        "Topic: /abe/cmd_vel/keyboard",
+        f"Topic type: {STAMPED}",
+        "Endpoint type: PUBLISHER",
+        "",
+        counts[2],
+        "",
+        "Node name: actuator",
+        "Node namespace: /abe",
+        "Process: pi-7",
+        "Topic: /abe/cmd_vel/keyboard",
+        f"Topic type: {STAMPED}",
+        "Endpoint type: SUBSCRIPTION",
+    ]
+
+
+def test_a_topic_that_nobody_has_is_unknown_and_the_nearest_is_told() -> None:
+    with pytest.raises(BusError, match=r"Unknown topic '/abe/drive_statu'; did you mean drive_status"):
+        HERE.topic("drive_statu")
+    with pytest.raises(BusError, match="'/eve/odom'; robot eve is not heard; heard here: abe, bob"):
+        HERE.topic("/eve/odom")
+
+
+def test_a_node_is_told_with_all_its_processes() -> None:
+    assert list(node_info.lines(*node_info._named("keyboard", HERE), HERE)) == [
+        "/abe/keyboard",
+        "  Subscribers:",
+        "  Publishers:",
+        f"    /abe/cmd_vel/keyboard: {STAMPED}",
+        "  Processes:",
+        "    mac-1",
+        "    mac-2",
+    ]
+
+
+@pytest.mark.parametrize("text", ["actuator", "abe/actuator", "/abe/actuator"])
+def test_a_node_is_the_one_of_the_robot_meant(text: str) -> None:
+    assert node_info._named(text, HERE) == ("abe", "actuator")
+    assert node_info._named("/bob/actuator", HERE) == ("bob", "actuator")
+
+
+def test_a_node_of_several_robots_or_of_none_is_asked_about() -> None:
+    with pytest.raises(
+        BusError, match="2 nodes are called actuator: /abe/actuator, /bob/actuator; say which"
+    ):
+        node_info._named("actuator", HERE._replace(robot=None))
+    with pytest.raises(BusError, match="Unable to find node 'keybord'; did you mean /abe/keyboard"):
+        node_info._named("keybord", HERE)

@@ -1,0 +1,125 @@
+"""How a command that somebody is typing may go on; the last word is the one that is not whole yet."""
+
+import argparse
+import io
+from collections.abc import Callable, Iterable
+from contextlib import redirect_stderr, suppress
+from importlib import import_module
+from typing import Any, NamedTuple, Self
+
+from zteleop.bus.escape import printable
+from zteleop.cli import GROUPS, VERBS, file_of, find_verb
+
+OPTIONS_OF_ALL = ("--help", "--debug")
+
+
+def candidates(words: list[str]) -> list[str]:
+    """Return what the last word may be, sorted; nothing where nobody knows, such as for a file."""
+    *before, last = words
+    if not before:
+        found: Iterable[str] = {verb.partition(" ")[0] for verb in VERBS} | GROUPS.keys()
+    elif len(before) == 1 and before[0] in GROUPS:
+        found = GROUPS[before[0]]
+    else:
+        found = _after_verb(before, last)
+    return sorted(word for word in {*found} if word.startswith(last) and word == printable(word))
+
+
+class Place(NamedTuple):
+    """Where a word may stand: an option, or its value, or a word by itself."""
+
+    names: tuple[str, ...]
+    dest: str
+    choices: tuple[str, ...]
+    takes_value: bool
+    repeats: bool
+
+
+class Places:
+    """Stands in a parser's place while a verb adds its arguments, and keeps where words may stand."""
+
+    epilog = ""
+
+    def __init__(self) -> None:
+        self.options: dict[str, Place] = {}
+        self.words: list[Place] = []
+
+    def add_argument(self, *names: str, **about: Any) -> None:
+        """Take in an argument as argparse does."""
+        place = Place(
+            names,
+            about.get("dest") or names[-1].lstrip("-"),
+            tuple(map(str, about.get("choices") or ())),
+            about.get("action", "append") == "append",
+            about.get("nargs") in ("*", "+"),
+        )
+        if names[0].startswith("-"):
+            self.options.update(dict.fromkeys(names, place))
+        else:
+            self.words.append(place)
+
+    def add_argument_group(self, title: str) -> Self:
+        """Return itself: groups are for people."""
+        return self
+
+    def at(self, typed: list[str]) -> Place | None:
+        """Return what the word behind others stands for, by what and how many they are."""
+        given, value_of = 0, False
+        for word in typed:
+            given += not (value_of or word.startswith("-"))
+            value_of = word in self.options and self.options[word].takes_value
+        if value_of:
+            return self.options[typed[-1]]
+        if given < len(self.words):
+            return self.words[given]
+        return self.words[-1] if self.words and self.words[-1].repeats else None
+
+
+def _after_verb(before: list[str], last: str) -> Iterable[str]:
+    verb, typed = find_verb(before)
+    if verb not in VERBS:
+        return ()
+    places = Places()
+    import_module(f"zteleop.cli.{file_of(verb)}").add_arguments(places)
+    if last.startswith("-"):
+        return (*OPTIONS_OF_ALL, *(name for name in places.options if name.startswith("--")))
+    place = places.at(typed)
+    return _values(place, typed) if place else ()
+
+
+def _values(place: Place, typed: list[str]) -> Iterable[str]:
+    """Return what may stand in one place of a verb."""
+    if place.choices:
+        return place.choices
+    if place.dest in ("topic", "topics"):
+        return _on_the_bus(typed, lambda graph: [name.removeprefix("/") for name in graph.topics()])
+    if place.dest in ("robot", "named"):
+        return _on_the_bus(typed, lambda graph: {node.robot for node in graph.nodes})
+    if place.dest == "node":
+        return _on_the_bus(typed, lambda graph: [f"/{node.robot}/{node.node}" for node in graph.nodes])
+    return _types(place.dest)
+
+
+def _types(dest: str) -> Iterable[str]:
+    if dest == "type":
+        from zteleop.messages import MESSAGES
+        from zteleop.messages.service import is_half
+
+        return [name for name in MESSAGES if not is_half(name)]
+    return ()
+
+
+def _on_the_bus(typed: list[str], pick: Callable[[Any], Iterable[str]]) -> Iterable[str]:
+    """Return something of everybody who is there, by what was typed of where the bus is."""
+    from zteleop.cli import _options
+    from zteleop.cli._graph import graph
+    from zteleop.errors import ZteleopError
+
+    parser = argparse.ArgumentParser(add_help=False, exit_on_error=False)
+    _options.add(parser)
+    arguments = parser.parse_args([])
+    with suppress(argparse.ArgumentError, SystemExit), redirect_stderr(io.StringIO()):
+        arguments, _ = parser.parse_known_args(typed)
+    with suppress(ZteleopError), graph(arguments) as found:
+        return pick(found)
+    return ()

@@ -1,0 +1,105 @@
+"""Topics that a verb hears, each message at once, until the verb has enough or is told to end."""
+
+import argparse
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from typing import NamedTuple
+
+from zteleop.bus import clock, presence
+from zteleop.bus.escape import printable
+from zteleop.bus.loop import Loop
+from zteleop.bus.names import Name, resolve
+from zteleop.bus.session import Delivery, Ring, Sample, Session, open_session
+from zteleop.bus.topics import topic_of
+from zteleop.cli import _company, _options
+
+DEPTH = 1000
+"""messages that wait for whoever looks at them; of a flood the oldest are lost"""
+TELL_AFTER = 1.0
+"""s of silence at the start until it says for whom it waits"""
+
+
+class Arrival(NamedTuple):
+    """A message in its bytes, and when it was taken, by the bus clock."""
+
+    at: float
+    sample: Sample
+
+
+class Listening:
+    """A verb's ears: handlers run one after another in `loop`, which `run` runs until it is stopped."""
+
+    def __init__(self, verb: str, session: Session) -> None:
+        self.loop = Loop(lambda: None)
+        self.patient = True
+        """Says after a while for whom it waits."""
+        self._verb = verb
+        self._session = session
+        self._deliveries: list[Delivery] = []
+        self._silent: dict[str, Name] = {}
+        """the topics that have said nothing yet, by their names"""
+
+    def hear(self, name: Name, handler: Callable[[Arrival], object]) -> None:
+        """Hand over whatever is said on a topic; of a command topic, by every source."""
+        about = topic_of(name.path)
+        key = f"{name.key}/**" if about.command and "/" not in name.path else name.key
+        self._silent[str(name)] = name
+
+        def take(arrival: Arrival) -> None:
+            self._silent.pop(str(name), None)
+            handler(arrival)
+
+        inbox = _Inbox(self._session.subscribe(key, DEPTH))
+        self._deliveries.append(self._session.deliver(inbox, take, self.loop))
+        self._session.declare_token(presence.endpoint_key(name, "sub", self._verb, about.types))
+
+    def run(self) -> None:
+        """Hear until the loop is stopped."""
+        if self.patient:
+            self.loop.alarm(self._tell).ring_at(clock.now() + TELL_AFTER)
+        self.loop.run()
+
+    def endpoints(self) -> list[presence.Endpoint]:
+        """Return what every robot's nodes publish and hear now."""
+        return presence.endpoints(self._session)
+
+    def why_silent(self, name: Name) -> str:
+        """Return who says nothing on a topic, or which topic may have been meant."""
+        return printable(f"{name}: {_company.why_silent(name, self.endpoints())}")
+
+    def close(self) -> None:
+        """Hear no more; the session must be closed first."""
+        for delivery in self._deliveries:
+            delivery.close()
+        self.loop.close()
+
+    def _tell(self) -> None:
+        for name in list(self._silent.values()):
+            words = f"zteleop {self._verb}: waits for {self.why_silent(name)}"
+            print(words, file=sys.stderr, flush=True)
+
+
+class _Inbox:
+    def __init__(self, ring: Ring) -> None:
+        self.ring = ring
+
+    def read(self, sample: Sample) -> Arrival | None:
+        return Arrival(clock.now(), sample) if sample.is_put else None
+
+
+@contextmanager
+def listening(
+    verb: str, topics: Sequence[str], arguments: argparse.Namespace
+) -> Iterator[tuple[Listening, list[Name]]]:
+    """Join the bus to hear topics; yield the ears, and the topics' names in the order typed.
+
+    Raises ConfigError for a name that is none, or could be several robots'.
+    """
+    settings = _options.load(arguments)
+    robots = [_options.robot_of(topic, settings) for topic in topics]
+    with ExitStack() as afterwards, open_session(settings.bus, settle=None in robots) as session:
+        selected = _options.find_robot(session, settings) if None in robots else None
+        ears = Listening(verb, session)
+        afterwards.callback(ears.close)
+        yield ears, [resolve(topic, robot or selected) for topic, robot in zip(topics, robots, strict=True)]
