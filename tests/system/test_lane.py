@@ -6,27 +6,12 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
 
 import pytest
-from rig import NEUTRAL, PATIENCE, ROOT, Rig, free_port, repeating, until
-
-from zteleop.messages import Twist
+from rig import NEUTRAL, PATIENCE, ROOT, Rig, free_port, until
 
 BY_HAND = b'{"zteleop": "stop", "robot": "bench", "id": 7, "by": "a button"}'
 PAGE = ROOT / "docs/upstream/zenoh-poisoned-lock.md"
-
-
-@pytest.fixture
-def driving(rig: Rig) -> Iterator[None]:
-    """A robot that a program drives; its stream goes on whatever happens."""
-    rig.actuator()
-    node = rig.node("driver")
-    rig.hear(node)
-    motors = node.publisher("cmd_vel", Twist)
-    with repeating(lambda: motors.publish(Twist.planar(0.5)), 0.02):
-        until(lambda: rig.ticks[1] > NEUTRAL[1], "the throttle above neutral")
-        yield
 
 
 def say(rig: Rig, text: bytes) -> dict[str, object]:

@@ -1,29 +1,15 @@
 """What strangers say on an open bus costs nobody his drive."""
 
 import time
-from collections.abc import Iterator
 
 import pytest
 import zenoh
 from rig import NEUTRAL, Rig, repeating, until
 
 from zteleop.control.deadlines import DEAF_AFTER
-from zteleop.messages import Twist
 
 RATE = 0.02
 DROP = zenoh.CongestionControl.DROP
-
-
-@pytest.fixture
-def driving(rig: Rig) -> Iterator[None]:
-    """A program that drives; it says so 50 times a second."""
-    rig.actuator()
-    node = rig.node("driver")
-    rig.hear(node)
-    motors = node.publisher("cmd_vel", Twist)
-    with repeating(lambda: motors.publish(Twist.planar(0.5)), RATE):
-        until(lambda: rig.ticks[1] > NEUTRAL[1] + 10, "the throttle above neutral")
-        yield
 
 
 @pytest.mark.usefixtures("driving")
