@@ -17,7 +17,7 @@ from zteleop.bus.node import Node
 from zteleop.bus.session import Session, open_session
 from zteleop.bus.settings import BusSettings
 from zteleop.bus.subscription import Subscription
-from zteleop.cli.keyboard import painter
+from zteleop.cli._painter import Painter
 from zteleop.control.report import to_vehicle
 from zteleop.control.settings import DriveSettings
 from zteleop.drivers import open_driver
@@ -28,6 +28,7 @@ from zteleop.machine.stop_file import StopFile
 from zteleop.nodes.actuator import AT_MOST_EVERY, Actuator
 from zteleop.nodes.teleop import Teleop
 from zteleop.recording.journal import Journal
+from zteleop.screen.dashboard import Dashboard
 
 KEYS = (b"\x1b[D", b"\x1b[C")
 WARM_UP = 20
@@ -113,7 +114,7 @@ def _press_all(
     terminal, views = TypedTerminal(), []
     keyboard = Keyboard("step", terminal=terminal)  # type: ignore[arg-type]
     teleop = Teleop(node, keyboard, "keyboard", to_vehicle(settings, driver.tick_us), views.append)
-    paint = painter(keyboard, "bench", Steps())
+    paint = Painter(keyboard, Dashboard("bench", "step", keyboard.speeds, steps=Steps()))
     inbox, handler = actuator.inboxes["pwm/keyboard"]
     for index in range(WARM_UP + presses):
         watchdog.say(link.HEARS)

@@ -17,6 +17,7 @@ from zteleop.control.stick import Speeds
 from zteleop.drivers import DRIVERS, settings_kind, settings_of
 from zteleop.drivers.simulated import default_path
 from zteleop.errors import ConfigError
+from zteleop.inputs.gamepad_map import GamepadSettings
 from zteleop.inputs.keymap import bindings
 from zteleop.inputs.levers import Steps
 
@@ -42,6 +43,8 @@ class Config(Struct, frozen=True, forbid_unknown_fields=True):
     """of the keyboard; `zteleop keyboard --help` names them"""
     keys: dict[str, str] = {}
     """key -> action, beside those of the keymap"""
+    gamepad: GamepadSettings = GamepadSettings()
+    """which control of a pad does what; `zteleop gamepad --learn` finds it out"""
     journal: Literal["acts", "all", "off"] = "acts"
     """what a robot keeps of the commands on its disk: who acted, every one, nothing"""
     blackbox: bool = True

@@ -1,14 +1,20 @@
-"""Draws the keyboard's screen, and works out anew only what can look different."""
+"""Draws the screen of whoever drives, and works out anew only what can look different."""
 
 from collections import deque
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Protocol
 
 from msgspec.structs import replace
 
 from zteleop.bus import clock
-from zteleop.inputs.keyboard import Keyboard
+from zteleop.control.stick import Speeds
+from zteleop.inputs import Drive
 from zteleop.screen.dashboard import Dashboard
 from zteleop.screen.render import render
 from zteleop.screen.view import View
+
+if TYPE_CHECKING:
+    from zteleop.terminal.terminal import Terminal
 
 HEARD_WITHIN = 0.6
 """s in which a robot that is there is heard"""
@@ -17,11 +23,36 @@ TRAIL_STEP = 0.05
 """m"""
 
 
+class Shown(Protocol):
+    """What a screen shows of the device that drives."""
+
+    drive: Drive
+
+    @property
+    def terminal(self) -> "Terminal":
+        """Where the screen is."""
+
+    @property
+    def speeds(self) -> Speeds:
+        """What a full stick means."""
+
+    @property
+    def certainty(self) -> str:
+        """How sure it is what the operator holds, or what he must do to drive."""
+
+    @property
+    def help(self) -> Sequence[tuple[str, str]]:
+        """Which keys and buttons there are, and what each does, while somebody wants to see them."""
+
+    def idle_left(self, now: float) -> float | None:
+        """Return the seconds until neutral for want of an act; None when it is neutral already."""
+
+
 class Painter:
     """One screen, of what is known from the start and what is seen."""
 
-    def __init__(self, keyboard: Keyboard, known: Dashboard) -> None:
-        self._keyboard = keyboard
+    def __init__(self, device: Shown, known: Dashboard) -> None:
+        self._device = device
         self.known = known
         self._looks_until = clock.now() + HEARD_WITHIN
         self._trail: deque[tuple[float, float]] = deque(maxlen=TRAIL)
@@ -31,16 +62,16 @@ class Painter:
     def __call__(self, view: View) -> None:
         """Show what is seen now."""
         self._follow(view)
-        keyboard, terminal = self._keyboard, self._keyboard.terminal
-        left = keyboard.idle_left(view.now)
+        device, terminal = self._device, self._device.terminal
+        left = device.idle_left(view.now)
         dashboard = self.known._replace(
-            drive=keyboard.drive,
-            speeds=keyboard.speeds,
+            drive=device.drive,
+            speeds=device.speeds,
             seen=view,
             idle_left=left if left is None else round(left, 1),
             looking=view.status is None and clock.now() < self._looks_until,
-            certainty=keyboard.certainty,
-            keys=keyboard.help,
+            certainty=device.certainty,
+            keys=device.help,
         )
         size = terminal.size()
         shown = (dashboard._replace(seen=View()), *visible(view), len(self._trail), size)
@@ -63,6 +94,7 @@ def visible(view: View) -> tuple[View, object]:
     """Return what of a view can be seen: no times, and no counters."""
     status, odom = view.status, view.odom
     if status is not None:
-        status = replace(status, written=0.0, seq=0, refused=0, clamped=0, latency=0.0)
+        latency = round(status.latency, 2) if view.ours else 0.0  # it changes with each command
+        status = replace(status, written=0.0, seq=0, refused=0, clamped=0, latency=latency)
     place = (odom.pose.pose, odom.twist.twist) if odom is not None else None
     return view._replace(now=0.0, status=status, odom=None), place

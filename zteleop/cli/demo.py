@@ -11,7 +11,8 @@ from pathlib import Path
 from zteleop.bus import clock
 from zteleop.bus.node import Node
 from zteleop.bus.settings import SAME_MACHINE_DOOR, BusSettings
-from zteleop.cli.keyboard import drive_with_keys, find_vehicle
+from zteleop.cli._driving import find_vehicle
+from zteleop.cli.keyboard import drive_with_keys
 from zteleop.config import Config
 from zteleop.errors import BusError
 from zteleop.inputs import Drive

@@ -3,21 +3,14 @@ from collections.abc import Callable, Sequence
 
 import msgspec
 
-from zteleop.bus import clock, presence
-from zteleop.bus.lane.call import Call
 from zteleop.bus.node import Node
 from zteleop.cli import _options
-from zteleop.cli._company import who_is_here
-from zteleop.cli._painter import HEARD_WITHIN, Painter
+from zteleop.cli._driving import drive_at_terminal
 from zteleop.config import Config
-from zteleop.control.report import to_vehicle
-from zteleop.drivers import tick_us
 from zteleop.inputs import Drive
 from zteleop.inputs.keyboard import Keyboard
 from zteleop.inputs.keymap import HELD, KEYMAPS, describe, keymap
-from zteleop.machine.guardian import guarded
 from zteleop.messages import Vehicle
-from zteleop.nodes.teleop import Teleop
 from zteleop.screen.dashboard import Dashboard
 from zteleop.screen.top_view import Mark
 from zteleop.screen.view import View
@@ -26,7 +19,6 @@ EXAMPLES = (
     "zteleop keyboard",
     "zteleop keyboard --robot archangel --drive hold",
 )
-KILLED = "\r\nzteleop was killed; this terminal is as it was, and Enter brings its prompt\r\n"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -68,7 +60,6 @@ def drive_with_keys(
     Return how: unless somebody said so, while keys are held where their release is told, else in steps
     what takes them.
     """
-    node.log.show = lambda line: None  # nothing prints over the screen: it shows the log itself
     keyboard = Keyboard(
         speeds=settings.speeds, steps=settings.steps, keymap=settings.keymap, keys=settings.keys
     )
@@ -80,37 +71,10 @@ def drive_with_keys(
         floor=floor,
         bound=keyboard.bound,
     )
-    terminal = keyboard.terminal
-    with guarded(terminal.name, terminal.farewell + KILLED), keyboard, Call(settings.bus) as lane:
-        keyboard.settle(clock.now)
-        paint = Painter(keyboard, known)
-        paint(View())
-        vehicle = find_vehicle(node, settings)
-        if not node.membership.heard().vehicle:
-            here = presence.robots(node.membership.session)
-            paint.known = known._replace(others=who_is_here(here))
-        keyboard.settle(clock.now)  # once more: what was typed while nobody looked
 
-        def show(view: View) -> None:
-            watch(view)
-            if keyboard.suspending:
-                keyboard.suspend(clock.now())  # its last word is said
-            else:
-                paint(view)
-
+    def choose(vehicle: Vehicle) -> None:
         steps = vehicle.takes_ticks and not keyboard.tells_releases and settings.keymap not in HELD
         keyboard.drive = drive or ("step" if steps else "hold")
-        Teleop(node, keyboard, "keyboard", vehicle, show, lane).run()
+
+    drive_at_terminal(node, settings, keyboard, "keyboard", known, choose, watch)
     return keyboard.drive
-
-
-def find_vehicle(node: Node, settings: Config) -> Vehicle:
-    """Return what the robot says of itself; when it is not there yet, what the settings say."""
-    give_up = clock.now() + HEARD_WITHIN
-    while clock.now() < give_up:
-        if vehicle := node.membership.heard().vehicle:
-            return vehicle
-        node.spin(0.01)
-    return to_vehicle(
-        settings.drive, tick_us(settings.driver, settings.driver_settings(settings.driver, "any"))
-    )

@@ -23,12 +23,14 @@ class Input(Protocol):
     """A device an operator holds, used in a `with`."""
 
     drive: Drive
-    finished: bool
-    """The operator asked to end."""
     rested: bool
     """It was at neutral since this was last taken, be it between two acts that came at once"""
     wish: Wish | None
     """What it asks of the robot besides; whoever takes it leaves None. A release never takes back a stop."""
+
+    @property
+    def finished(self) -> bool:
+        """The operator asked to end."""
 
     @property
     def speeds(self) -> Speeds:

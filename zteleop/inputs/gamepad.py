@@ -6,6 +6,7 @@ from zteleop.control.stick import Speeds, Stick
 from zteleop.inputs import Drive, Wish
 from zteleop.inputs.gamepad_controls import Controls
 from zteleop.inputs.gamepad_map import FORGET, GamepadSettings, Moved, Pads
+from zteleop.inputs.keymap import DOES
 from zteleop.messages import Vehicle
 
 RELEASE_HELD = 1.0
@@ -71,6 +72,7 @@ class Gamepad:
         for moved in self._pads.read(now):
             self._heard = now
             self._take(moved, now)
+            self.rested = self.rested or not self._holding
         self._look_at_release(now)
         return self._holding
 
@@ -108,6 +110,17 @@ class Gamepad:
         if self._silent:
             return f"{name} has not moved for {self.silence:g} s; let go of everything, then hold {hold} anew"
         return f"{name}: let go of {hold} and of the sticks before you drive"
+
+    @property
+    def help(self) -> list[tuple[str, str]]:
+        """What each button does; those that the pad has."""
+        does = {
+            "deadman": "to drive, while it is held",
+            "turbo": "to drive at full speed, while it is held",
+            "stop": DOES["stop robot"],
+            "release": f"{DOES['release robot']}, after {RELEASE_HELD:g} s",
+        }
+        return [(self._controls.label(use), what) for use, what in does.items() if self._controls.has(use)]
 
     @property
     def _holding(self) -> bool:

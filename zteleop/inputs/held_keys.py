@@ -21,6 +21,8 @@ class HeldKeys:
     """What is held now."""
 
     def __init__(self) -> None:
+        self.confirmed = False
+        """A repeat has told that the throttle is held; until then it may have been a touch."""
         self._axes: dict[Axis, int] = {}
         self._newest = ""
         self._count = 0
@@ -38,6 +40,9 @@ class HeldKeys:
         alive = now < self._until
         if not alive:
             self._axes.clear()
+        pushes = dict(moves).get("throttle")
+        if not alive or pushes not in (None, self._axes.get("throttle")):
+            self.confirmed = False
         if alive and key == self._newest:
             self._repeat(now)
         else:
@@ -57,6 +62,7 @@ class HeldKeys:
         return pushed(self._axes)
 
     def _repeat(self, now: float) -> None:
+        self.confirmed = True  # also of the key of the other axis, for which it speaks
         interval, self._count = now - self._seen, self._count + 1
         if self._count > 1:
             self._interval += (interval - self._interval) / 4 if self._interval else interval

@@ -6,6 +6,9 @@ from zteleop.inputs.held_keys import HeldKeys
 from zteleop.inputs.keymap import Moves
 from zteleop.terminal.keys import Key
 
+UNCONFIRMED = 0.4
+"""of full speed, for a press that may have been a touch: it counts for 0.6 s"""
+
 
 class Holding:
     """The keys of one operator, as a stick; `now` in s."""
@@ -53,7 +56,16 @@ class Holding:
 
     def stick(self, now: float) -> Stick:
         """Return what the held keys ask for; nobody holds it when none is."""
-        return self._down.stick() if self.told else self._guess.stick(now)
+        if self.told:
+            return self._down.stick()
+        stick = self._guess.stick(now)
+        return stick if self._guess.confirmed else slowed(stick, self.steers)
+
+
+def slowed(stick: Stick, steers: bool) -> Stick:
+    """Return what may be asked for by a press that no repeat has confirmed; wheels may steer all the way."""
+    turn = stick.turn if steers else UNCONFIRMED * stick.turn
+    return stick._replace(forward=UNCONFIRMED * stick.forward, turn=turn)
 
 
 def swing(moves: Moves) -> Moves:

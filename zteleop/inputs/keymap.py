@@ -62,6 +62,7 @@ KEYMAPS: dict[str, dict[str, str]] = {
         **ALWAYS,
         OTHER: "neutral",
     },
+    "stop": {**QUIT, **ALWAYS},  # no key drives: for whoever stands by, or has a pad in his hands
 }
 
 HELD = {"twist"}

@@ -35,7 +35,9 @@ class Dashboard(NamedTuple):
     others: str = ""
     """which robots could have been meant, where this one is not heard"""
     certainty: str = ""
-    """how sure it is which keys are held"""
+    """how sure it is which keys are held, or what a pad wants"""
+    device: str = "keys"
+    """what that is about"""
     floor: Sequence[Mark] = ()
     """lies around the robot"""
     bound: Mapping[str, str] = USUAL

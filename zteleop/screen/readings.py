@@ -4,7 +4,7 @@ from zteleop.screen.bars import bar_lines
 from zteleop.screen.dashboard import WIDE, Dashboard, Line, labelled, line
 from zteleop.screen.heading import heading, state
 from zteleop.screen.values import asked_line, out_text, output_line, speeds_line, twist_text, value_lines
-from zteleop.terminal.cells import Span, printable
+from zteleop.terminal.cells import Span, printable, wrap
 
 
 def readings(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
@@ -19,10 +19,27 @@ def readings(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
         line(9),
         *bar_lines(d, columns, unicode),
         idle(d, columns),
-        *([labelled(8, "keys", d.certainty, columns, "dim")] if d.certainty else []),
+        *device_lines(d, columns),
+        *link_lines(d, columns),
         line(9),
         *value_lines(d, columns, unicode),
     ]
+
+
+def device_lines(d: Dashboard, columns: int) -> list[Line]:
+    """Return how sure it is what the operator holds, or what he must do to drive."""
+    room = len(labelled(8, d.device, "", columns).spans[0].text)
+    told = wrap(d.certainty, max(columns - room, room))
+    return [labelled(8, "" if row else d.device, text, columns, "dim") for row, text in enumerate(told)]
+
+
+def link_lines(d: Dashboard, columns: int) -> list[Line]:
+    """Return how old this operator's commands are when the robot hears them."""
+    status = d.seen.status
+    if status is None or not d.obeyed or not status.latency:
+        return []
+    words = f"commands arrive within {1000 * status.latency:.0f} ms"
+    return [labelled(8, "link", words, columns, "yellow" if status.slowed else "dim")]
 
 
 def help_lines(d: Dashboard, columns: int) -> list[Line]:

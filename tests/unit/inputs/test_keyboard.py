@@ -7,6 +7,7 @@ from zteleop.control.stick import Speeds, Stick, to_twist
 from zteleop.errors import ConfigError
 from zteleop.inputs import Wish
 from zteleop.inputs.held_keys import FIRST, REPEATING
+from zteleop.inputs.holding import UNCONFIRMED
 from zteleop.messages import Channel, Vehicle
 
 DELETE = b"\x7f"
@@ -203,7 +204,7 @@ def test_a_key_held_through_a_reset_must_be_let_go_first(car, drive):
 
 def test_held_keys_drive_while_held(hold):
     hold.type(UP + LEFT)
-    assert hold.stick(after=0.5) == Stick(1.0, 1.0, True)
+    assert hold.stick(after=0.5) == Stick(UNCONFIRMED, 1.0, True)
     assert hold.stick(after=0.2) == Stick()
 
 
@@ -344,7 +345,7 @@ def test_a_question_mark_shows_what_each_key_does_and_hides_it_again(car, drive)
 
 
 def test_one_key_may_push_both_axes(car):
-    for drive, expected in (("hold", Stick(1.0, -1.0, deadman=True)), ("step", None)):
+    for drive, expected in (("hold", Stick(UNCONFIRMED, -1.0, deadman=True)), ("step", None)):
         typist = Typist(drive, car, keymap="twist")
         typist.type(b"o")
         assert typist.stick() == expected or typist.ticks() == (360, 371)
@@ -392,7 +393,7 @@ def test_taps_that_follow_a_reset_too_soon_are_told(step):
 def test_a_key_that_backs_to_the_left_does_so_on_wheels_that_steer_and_on_tracks(car, tank):
     for vehicle, turn in ((car, 1.0), (tank, -1.0)):
         typist = Typist("hold", vehicle, keymap="twist")
-        typist.type(b"m")
+        typist.type(b"mm")
         assert typist.stick() == Stick(-1.0, turn, deadman=True)
         twist = to_twist(typist.stick(), Speeds(0.3, 1.0), vehicle)
         assert twist.linear.x < 0

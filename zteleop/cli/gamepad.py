@@ -1,0 +1,81 @@
+import argparse
+import select
+import sys
+
+from zteleop.bus import clock
+from zteleop.cli import _options
+from zteleop.cli._driving import drive_at_terminal
+from zteleop.errors import DeviceError
+from zteleop.inputs.console import Console
+from zteleop.inputs.evdev.pads import EvdevPads
+from zteleop.inputs.gamepad import Gamepad
+from zteleop.inputs.gamepad_learn import Lesson
+from zteleop.inputs.gamepad_map import USES, GamepadSettings
+from zteleop.inputs.keyboard import Keyboard
+from zteleop.screen.dashboard import Dashboard
+
+EXAMPLES = (
+    "zteleop gamepad",
+    "zteleop gamepad --robot archangel",
+)
+LOOK_EVERY = 0.05
+"""s between two looks at a pad that is being learned"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    _options.add(parser)
+    parser.add_argument("--list", action="store_true", help="list the pads of this machine, and end")
+    parser.add_argument(
+        "--learn", action="store_true", help="ask which control does what, and print it for config.toml"
+    )
+
+
+def run(arguments: argparse.Namespace) -> None:
+    settings = _options.load(arguments)
+    pads = EvdevPads(settings.gamepad.device)
+    if arguments.list:
+        list_pads(pads)
+    elif arguments.learn:
+        learn(pads)
+    else:
+        pad = Gamepad(pads, settings.gamepad, settings.speeds)
+        keyboard = Keyboard("hold", keymap="stop", keys={})
+        with _options.join("gamepad", settings) as node:
+            known = Dashboard(
+                robot=node.robot or "",
+                drive="hold",
+                speeds=settings.speeds,
+                bound=keyboard.bound,
+                device="pad",
+            )
+            drive_at_terminal(node, settings, Console(pad, keyboard), "gamepad", known)
+
+
+def list_pads(pads: EvdevPads) -> None:
+    """Print a line for each pad; raises DeviceError when there is none."""
+    with pads:
+        names = pads.names
+    if not names:
+        raise DeviceError("no gamepad is here; plug one in, or switch it on")
+    print("\n".join(names))
+
+
+def learn(pads: EvdevPads) -> None:
+    """Ask for one control after the other; print what config.toml needs."""
+    lesson, asked = Lesson(), ""
+    with pads:
+        while not lesson.done:
+            words = pads.name and (lesson.complaint or lesson.question)
+            words = words or "waiting for a gamepad: plug one in, or switch it on"
+            if words != asked:
+                asked = words
+                print(words, file=sys.stderr, flush=True)
+            for moved in pads.read(clock.now()):
+                lesson.heed(moved)
+            select.select([pads.fileno()], [], [], LOOK_EVERY)
+    print(as_toml(lesson.settings))
+
+
+def as_toml(settings: GamepadSettings) -> str:
+    """Return the part of config.toml that says which control does what."""
+    return "\n".join(["[gamepad]", *(f'{use} = "{getattr(settings, use)}"' for use in USES)])
