@@ -49,6 +49,8 @@ class Config(Struct, frozen=True, forbid_unknown_fields=True):
     """what a robot keeps of the commands on its disk: who acted, every one, nothing"""
     blackbox: bool = True
     """a robot keeps the last minute of every topic, and writes it when it stops, fails or crashes"""
+    launch: dict[str, str] = {}
+    """name -> what `zteleop up` starts under it: a verb with its options, or any other program"""
     drivers: dict[str, dict[str, Any]] = {}
     """settings of each driver by name"""
 
@@ -56,6 +58,8 @@ class Config(Struct, frozen=True, forbid_unknown_fields=True):
         if self.robot is not None:
             robot_name(self.robot)
         bindings(self.keys, self.keymap)
+        for name in self.launch:
+            chunk(name, "a name in [launch]")
         for source in self.drive.sources:
             chunk(source, "a source")
         for name, settings in {self.driver: {}, **self.drivers}.items():

@@ -3,10 +3,11 @@
 import re
 import shlex
 import signal
+import subprocess
 from collections.abc import Iterator
 
 import pytest
-from rig import Process, Rig, repeating, until
+from rig import NEUTRAL, PATIENCE, ZTELEOP, Process, Rig, repeating, until
 
 from zteleop.messages import Header, String, Time, TwistStamped
 
@@ -146,3 +147,50 @@ def test_a_type_that_is_none_is_answered_with_the_nearest(rig: Rig, line: str, w
     result = rig.result(*line.split())
     assert (result.returncode, result.stdout) == (1, "")
     assert words in result.stderr
+
+
+def test_pub_says_what_comes_on_its_input_and_tells_of_what_is_no_message(rig: Rig) -> None:
+    echo = rig.join("echo", "chatter", "--field", "data", "--count", "3")
+    until(lambda: "echo" in ask(rig, "info chatter -v"), "somebody who listens")
+    command = [*ZTELEOP, "pub", "chatter", "String", "--stdin", *rig.bus_options()]
+    said = '{"data": "one"}\n{"dota": 1}\ndata: two\n---\n---\ndata: three\n'
+    result = subprocess.run(
+        command,
+        input=said,
+        env=rig.environment,
+        cwd=rig.folder,
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE,
+    )
+    assert echo.ends() == 0
+    assert echo.text.endswith("one\n---\ntwo\n---\nthree\n---")
+    assert "String has no field 'dota'; did you mean data?" in result.stderr
+    assert result.stderr.endswith("said 3\n")
+    assert result.returncode == 0
+
+
+def test_a_motion_for_some_time_ends_with_neutral(rig: Rig) -> None:
+    pub = rig.join("pub", "cmd_vel", "Twist", "{linear: {x: 0.5}}", "-r", "20", "--for", "1s")
+    until(lambda: rig.ticks[1] > NEUTRAL[1], "a robot that drives")
+    assert pub.ends() == 0
+    until(lambda: rig.ticks == NEUTRAL, "neutral")
+
+
+def test_pub_may_wait_for_several_or_for_nobody(rig: Rig) -> None:
+    assert "publishing #1" in ask(rig, "pub nowhere String --once -w 0")
+    waits = rig.join("pub", "wide", "String", "--once", "-w", "2")
+    ears = [rig.join("echo", "wide", "--once") for _ in range(2)]
+    assert [ear.ends() for ear in ears] == [0, 0]
+    assert waits.ends() == 0
+
+
+def test_log_shows_what_nodes_say_and_graph_who_says_what_to_whom(rig: Rig) -> None:
+    log = rig.join("log", "--level", "warn")
+    until(lambda: "Node name: log\n" in ask(rig, "info log -v"), "somebody who listens")
+    node = rig.node("nose")
+    # again and again, for what is said at once reaches nobody yet
+    until(lambda: node.log.warn("it smells") or "[nose]: it smells" in log.text, "words")
+    ended(log)
+    assert re.search(r"^/bench/drive_status +actuator -> ", ask(rig, "graph"), re.MULTILINE)
+    assert '  "/bench/actuator" -> "/bench/drive_status";' in ask(rig, "graph --dot").splitlines()

@@ -153,6 +153,6 @@ def test_the_second_of_two_keyboards_shows_why_it_does_not_drive(rig: Rig) -> No
 def test_a_keyboard_of_a_robot_that_is_not_there_says_who_is(rig: Rig) -> None:
     rig.actuator()
     keyboard = rig.terminal("keyboard", "--no-multicast-scouting", "-e", rig.endpoint, "--robot", "bensh")
-    keyboard.shows("no actuator heard on robot bensh (heard here: bench)")
+    keyboard.shows("no actuator heard on robot bensh (heard here: bench; did you mean bench?)")
     keyboard.type("q")
     assert keyboard.ends() == 0

@@ -1,6 +1,6 @@
 """Names of robots and topics, and the keys they stand for.
 
-`/archangel/odom`, `archangel/odom` and, with a robot selected, `odom` are `robot/archangel/odom`.
+`/archangel/odom`, `archangel/odom` and, with a robot selected, `odom` and `/odom` are `robot/archangel/odom`.
 Nothing else reaches a key expression: a name with a wildcard in it would address every robot.
 """
 
@@ -53,12 +53,14 @@ def chunk(text: str, what: str) -> str:
 
 def resolve(text: str, robot: str | None) -> Name:
     """Return what a topic's name stands for; raises ConfigError when it says no robot or is no name."""
-    absolute = text.startswith(("/", "robot/"))
     parts = text.removeprefix("/").removeprefix("robot/").rstrip("/").split("/")
+    of_ros = text.startswith("/") and len(parts) == 1 and parts[0] not in ("", robot)  # /odom, as ROS says it
+    absolute = text.startswith(("/", "robot/")) and not of_ros
     if not absolute and (len(parts) == 1 or _known(parts[0])):
         if robot is None:
             raise ConfigError(
-                f"topic {text!r} names no robot; say ROBOT/{text}, --robot ROBOT or Node(..., robot='ROBOT')"
+                f"topic {text!r} names no robot; say ROBOT/{'/'.join(parts)}, --robot ROBOT "
+                "or Node(..., robot='ROBOT')"
             )
         parts = [robot, *parts]
     elif not absolute and robot not in (None, parts[0]) and not _known(parts[1]):
@@ -66,10 +68,6 @@ def resolve(text: str, robot: str | None) -> Name:
             f"{text!r} could be robot {parts[0]}'s or {robot}'s; say /{text} or /{robot}/{text}"
         )
     if len(parts) < 2:
-        if _known(parts[0]):
-            raise ConfigError(
-                f"a topic is /ROBOT/TOPIC, found {text!r}; say {parts[0]}, or /ROBOT/{parts[0]}"
-            )
         raise ConfigError(
             f"a topic is ROBOT/TOPIC, such as {parts[0] or 'archangel'}/cmd_vel; found {text!r}"
         )

@@ -89,7 +89,7 @@ class Node:
         if about.types and not set(kinds) <= set(about.types):
             takes = " or ".join(accepted.__name__ for accepted in about.types)
             raise ConfigError(f"{topic} takes {takes}, found {', '.join(k.__name__ for k in kinds)}")
-        if not (about.types or topic.startswith("/")) and (near := known_as(name.path)):
+        if not (about.types or topic.startswith(f"/{name.robot}/")) and (near := known_as(name.path)):
             self.log.warn(f"publishes {topic}, which no robot hears; did you mean {near}?")
         if not about.command:
             return Publisher(self.membership.outlet(name, kinds, about.urgent), kinds)

@@ -30,7 +30,10 @@ def why_silent(name: Name, endpoints: Iterable[Endpoint]) -> str:
     """Return who says nothing on a topic, or which topic may have been meant."""
     endpoints = list(endpoints)
     if speakers := members(name, "pub", endpoints):
-        return f"{_people(speakers)} {_verb('publish', speakers)} it, and said nothing so far"
+        return (
+            f"{_people(speakers)} {_verb('publish', speakers)} it, and said nothing so far"
+            f"{_instead(name, speakers, endpoints)}"
+        )
     return f"nobody publishes it{_others(name, 'pub', endpoints)}"
 
 
@@ -51,6 +54,17 @@ def who_is_here(robots: Iterable[str], wanted: str = "") -> str:
         return "no robot is heard here"
     near = get_close_matches(wanted, found, 1)
     return f"heard here: {', '.join(found)}" + (f"; did you mean {near[0]}?" if near else "")
+
+
+def _instead(name: Name, speakers: list[Endpoint], endpoints: list[Endpoint]) -> str:
+    """Say on which other command topic whoever is silent on one may speak: a keyboard in steps, on pwm."""
+    own = topic_of(name.path)
+    theirs = {(one.robot, one.process) for one in speakers}
+    said = {
+        topic_of(one.topic) for one in endpoints if one.kind == "pub" and (one.robot, one.process) in theirs
+    }
+    others = sorted(topic.name for topic in said - {own} if own.command and topic.command)
+    return f"; it may speak on {' or '.join(others)} instead" if others else ""
 
 
 def _others(name: Name, kind: Kind, endpoints: list[Endpoint]) -> str:

@@ -75,12 +75,18 @@ class Places:
         return self.words[-1] if self.words and self.words[-1].repeats else None
 
 
+def places_of(verb: str) -> Places:
+    """Return where words may stand behind a verb that there is."""
+    places = Places()
+    import_module(f"zteleop.cli.{file_of(verb)}").add_arguments(places)
+    return places
+
+
 def _after_verb(before: list[str], last: str) -> Iterable[str]:
     verb, typed = find_verb(before)
     if verb not in VERBS:
         return ()
-    places = Places()
-    import_module(f"zteleop.cli.{file_of(verb)}").add_arguments(places)
+    places = places_of(verb)
     if last.startswith("-"):
         return (*OPTIONS_OF_ALL, *(name for name in places.options if name.startswith("--")))
     place = places.at(typed)

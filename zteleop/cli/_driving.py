@@ -1,6 +1,6 @@
 """One operator at a terminal who drives with a device: the screen, and the lane of a stop."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Protocol, Self
 
 from zteleop.bus import clock, presence
@@ -14,6 +14,7 @@ from zteleop.drivers import tick_us
 from zteleop.inputs import Input
 from zteleop.machine.guardian import guarded
 from zteleop.messages import Vehicle
+from zteleop.nodes.switches import Switches
 from zteleop.nodes.teleop import Teleop
 from zteleop.screen.dashboard import Dashboard
 from zteleop.screen.view import View
@@ -23,6 +24,10 @@ KILLED = "\r\nzteleop was killed; this terminal is as it was, and Enter brings i
 
 class Device(Input, Shown, Protocol):
     """An input with a terminal, from which it can be suspended."""
+
+    @property
+    def switches(self) -> Mapping[str, bool]:
+        """Which switches there are, and which are on."""
 
     @property
     def suspending(self) -> bool:
@@ -51,7 +56,8 @@ def drive_at_terminal(
     What is seen goes to `watch` as well.
     """
     node.log.show = lambda line: None  # nothing prints over the screen: it shows the log itself
-    terminal = device.terminal
+    terminal, switches = device.terminal, Switches(node)
+    switches.heed(device.switches)  # which fails, where it does, before there is a screen
     with guarded(terminal.name, terminal.farewell + KILLED), device, Call(settings.bus) as lane:
         device.settle(clock.now)
         paint = Painter(device, known)
@@ -64,6 +70,7 @@ def drive_at_terminal(
 
         def show(view: View) -> None:
             watch(view)
+            switches.heed(device.switches)
             if device.suspending:
                 device.suspend(clock.now())  # its last word is said
             else:

@@ -15,6 +15,7 @@ from zteleop.bus.session import Session, open_session
 from zteleop.cli._salvage import salvage
 from zteleop.config import Config
 from zteleop.errors import ConfigError
+from zteleop.text.quantity import quantity
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -121,6 +122,17 @@ def count(text: str) -> int:
     if not text.isdecimal() or int(text) < 1:
         raise argparse.ArgumentTypeError(f"at least once is meant, found {text}")
     return int(text)
+
+
+def seconds(text: str) -> float:
+    """Return a time in s, as typed: 2, 500ms; more than nothing."""
+    try:
+        found = quantity(text, "time")
+    except ConfigError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+    if found <= 0:
+        raise argparse.ArgumentTypeError(f"expected more than nothing, found {text}")
+    return found
 
 
 def _robot(text: str) -> str:

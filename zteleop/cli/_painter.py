@@ -37,8 +37,8 @@ class Shown(Protocol):
         """What a full stick means."""
 
     @property
-    def certainty(self) -> str:
-        """How sure it is what the operator holds, or what he must do to drive."""
+    def about(self) -> Sequence[tuple[str, str]]:
+        """What there is to say of it, by a short name: how sure it is what the operator holds."""
 
     @property
     def help(self) -> Sequence[tuple[str, str]]:
@@ -70,7 +70,7 @@ class Painter:
             seen=view,
             idle_left=left if left is None else round(left, 1),
             looking=view.status is None and clock.now() < self._looks_until,
-            certainty=device.certainty,
+            about=device.about,
             keys=device.help,
         )
         size = terminal.size()

@@ -9,11 +9,10 @@ from zteleop.bus.session import Sample
 from zteleop.bus.topics import topic_of
 from zteleop.cli import _options
 from zteleop.cli._listening import TELL_AFTER, Arrival, listening
-from zteleop.errors import BusError, ConfigError, MessageError
+from zteleop.errors import BusError, MessageError
 from zteleop.messages import MESSAGES
 from zteleop.text import paths
 from zteleop.text.form import Form
-from zteleop.text.quantity import quantity
 from zteleop.text.rendering import CUT, Style
 from zteleop.text.selection import Selection
 
@@ -43,7 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     shown.add_argument("--once", action="store_true", help="print one message and end")
     shown.add_argument("--count", metavar="N", type=_options.count, help="print N messages and end")
     shown.add_argument(
-        "--timeout", metavar="TIME", type=_time, help="give up after so long a silence: 5, 500ms"
+        "--timeout", metavar="TIME", type=_options.seconds, help="give up after so long a silence: 5, 500ms"
     )
     form = parser.add_argument_group("how it looks")
     form.add_argument("--json", action="store_true", help="one message a line, as JSON")
@@ -157,13 +156,3 @@ def _filter(text: str | None) -> "Filter | None":
     from zteleop.text.filter import Filter  # which only few ask for
 
     return Filter(text)
-
-
-def _time(text: str) -> float:
-    try:
-        seconds = quantity(text, "time")
-    except ConfigError as error:
-        raise argparse.ArgumentTypeError(str(error)) from None
-    if seconds <= 0:
-        raise argparse.ArgumentTypeError(f"expected more than nothing, found {text}")
-    return seconds

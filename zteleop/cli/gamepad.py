@@ -46,7 +46,6 @@ def run(arguments: argparse.Namespace) -> None:
                 drive="hold",
                 speeds=settings.speeds,
                 bound=keyboard.bound,
-                device="pad",
             )
             drive_at_terminal(node, settings, Console(pad, keyboard), "gamepad", known)
 

@@ -8,11 +8,10 @@ from zteleop import config
 from zteleop.bus import clock
 from zteleop.cli import _options
 from zteleop.cli._driving import KILLED
-from zteleop.inputs.keyboard import open_terminal
 from zteleop.inputs.keymap import KEYMAPS, OTHER, bindings
 from zteleop.machine.guardian import guarded
 from zteleop.terminal.keys import Key
-from zteleop.terminal.typed import Typed
+from zteleop.terminal.typed import Typed, open_terminal
 
 EXAMPLES = (
     "zteleop keys",

@@ -1,6 +1,9 @@
 import argparse
+import os
 import sys
+from collections.abc import Callable, Iterable
 from contextlib import suppress
+from typing import TypeVar
 
 import msgspec
 
@@ -11,15 +14,17 @@ from zteleop.bus.node import Node
 from zteleop.bus.publisher import Publisher
 from zteleop.bus.topics import topic_of
 from zteleop.cli import _company, _options
+from zteleop.cli._draft import Draft
 from zteleop.control.resume import Resume
 from zteleop.control.settings import SOURCES
-from zteleop.errors import BusError, ConfigError
-from zteleop.interfaces.values import fill
+from zteleop.errors import BusError, ConfigError, MessageError
 from zteleop.messages import DriveStatus, Message, message_type
-from zteleop.text import yaml_text
+from zteleop.text.documents import Documents
 
+M = TypeVar("M", bound=Message)
 EXAMPLES = (
     "zteleop pub cmd_vel Twist '{linear: {x: 0.2}}' --rate 10",
+    "zteleop pub cmd_vel TwistStamped '{header: auto, twist: {linear: {x: 0.2}}}' --rate 10 --for 1s",
     "zteleop pub archangel/cmd_vel geometry_msgs/msg/Twist '{angular: {z: 0.5}}' --rate 10 --times 20",
 )
 HEARD_WITHIN = 3.0
@@ -36,9 +41,23 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add(parser)
     parser.add_argument("topic", help="such as archangel/cmd_vel")
     parser.add_argument("type", help="such as geometry_msgs/msg/Twist, or Twist")
-    parser.add_argument("values", nargs="?", default="{}", help="YAML: '{linear: {x: 0.2}}'; the rest is 0")
+    parser.add_argument(
+        "values", nargs="?", default="{}", help="YAML: '{linear: {x: 0.2}}'; the rest is 0; stamp: now"
+    )
     parser.add_argument("-r", "--rate", metavar="HZ", type=_rate_hz, default=1.0, help="default: 1")
     parser.add_argument("-1", "--once", action="store_true", help="say it once and end")
+    parser.add_argument("--for", metavar="TIME", dest="lasts", type=_options.seconds, help="end after 2s")
+    parser.add_argument(
+        "--stdin", action="store_true", help="say each YAML document, or line of JSON, that comes"
+    )
+    parser.add_argument(
+        "-w",
+        "--wait-matching-subscriptions",
+        metavar="N",
+        type=int,
+        default=1,
+        help="wait for so many who hear it (1); of a command for its robot",
+    )
     parser.add_argument("-t", "--times", metavar="N", type=_options.count, help="say it N times and end")
     parser.add_argument(
         "--resume",
@@ -50,7 +69,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> None:
     settings = _options.load(arguments)
     kind = message_type(arguments.type)
-    message = fill(kind, yaml_text.load(arguments.values))
+    draft = Draft(kind, arguments.values)
     times = 1 if arguments.once else arguments.times
     robot = _options.robot_of(arguments.topic, settings)
     # A late command is worse than none; whatever else is said so many times is to be heard so often.
@@ -59,26 +78,35 @@ def run(arguments: argparse.Namespace) -> None:
         name = resolve(arguments.topic, node.robot)
         publisher = node.publisher(f"/{name}", kind, wait=False)
         command = topic_of(name.path).command
-        heard = _await_robot(node, publisher) if command else _await_hearer(node, publisher, name)
-        if command and times is None and arguments.rate < 1 / OBEYED_FOR:
+        wanted = arguments.wait_matching_subscriptions
+        heard = _await_robot(node, publisher) if command else _await_hearer(node, publisher, name, wanted)
+        if arguments.stdin:
+            _say_what_comes(node, publisher, kind)
+            return
+        if command and not (times or arguments.lasts) and arguments.rate < 1 / OBEYED_FOR:
             words = f"a robot obeys each for {OBEYED_FOR:g} s, and stops in between; --rate 10 drives on"
             print(f"zteleop pub: {words}", file=sys.stderr)
         resume = Resume(publisher.sender) if arguments.resume and publisher.sender else None
-        _say(node, publisher, message, arguments.rate, times, resume, OBEYED_FOR if command else 0.0)
-        if times is not None and not (heard or _hears(node, publisher, name)):
+        stay = OBEYED_FOR if command else 0.0
+        _say(node, publisher, draft.make, arguments.rate, times, resume, stay, arguments.lasts)
+        if times is not None and wanted > 0 and not (heard or _hears(node, publisher, name)):
             raise BusError(f"said to nobody: {_who_hears(node, name)}")
 
 
 def _say(
     node: Node,
     publisher: Publisher[Message],
-    message: Message,
+    make: Callable[[], Message],
     rate: float,
     times: int | None,
     resume: Resume | None,
     stay: float,
+    lasts: float | None = None,
 ) -> None:
-    """Say a message again and again; a repeated motion ends with a neutral, a counted one after `stay` s."""
+    """Say a message again and again, for `lasts` s or for ever.
+
+    A repeated motion ends with a neutral, a counted one after `stay` s.
+    """
     said = 0
     if resume:
         node.subscription("drive_status", DriveStatus, lambda received: resume.heed(received.message))
@@ -89,6 +117,7 @@ def _say(
         if said == times:
             return
         said += 1
+        message = make()
         print(f"publishing #{said}: {message}\n", flush=True)
         if resume and resume.may(node.membership.heard().refusals, clock.now()):
             node.log.warn("begins anew by itself, as --resume says")
@@ -98,12 +127,41 @@ def _say(
             node.stop()
 
     try:
-        node.spin()
+        node.spin(lasts)
         if said == times:
             node.spin(stay)
     finally:
         if said != times:
             publisher.let_go()
+
+
+def _say_what_comes(node: Node, publisher: Publisher[M], kind: type[M]) -> None:
+    """Say each message that comes on standard input, at once; one that is none is told of, and left out."""
+    documents, file, said = Documents(), sys.stdin.fileno(), 0
+
+    def say(texts: Iterable[str]) -> None:
+        nonlocal said
+        for text in texts:
+            try:
+                publisher.publish(Draft(kind, text).make())
+            except MessageError as error:
+                print(printable(f"zteleop pub: {error}"), file=sys.stderr, flush=True)
+            else:
+                said += 1
+
+    def read() -> None:
+        if data := os.read(file, 1 << 16):
+            say(documents.feed(data))
+        else:
+            say(documents.end())
+            node.stop()
+
+    try:
+        node.membership.loop.watch(file, read)
+        node.spin()
+    finally:
+        publisher.let_go()
+    print(f"said {said}", file=sys.stderr)
 
 
 def _is_command(topic: str, robot: str | None) -> bool:
@@ -122,10 +180,13 @@ def _await_robot(node: Node, publisher: Publisher[Message]) -> bool:
     return True
 
 
-def _await_hearer(node: Node, publisher: Publisher[Message], name: Name) -> bool:
-    """Wait for somebody who hears a topic, and say who does; False when nobody is known to."""
+def _await_hearer(node: Node, publisher: Publisher[M], name: Name, wanted: int) -> bool:
+    """Wait for so many who hear a topic, and say who does; False when nobody is known to."""
     start, told = clock.now(), False
-    while not (heard := _hears(node, publisher, name)) and (waited := clock.now() - start) < HEARD_WITHIN:
+    while (
+        not (heard := _hears(node, publisher, name, wanted))
+        and (waited := clock.now() - start) < HEARD_WITHIN
+    ):
         if waited > TELL_AFTER and not told:
             print(f"zteleop pub: waits for who hears {name}: {_who_hears(node, name)}", file=sys.stderr)
             told = True
@@ -136,11 +197,13 @@ def _await_hearer(node: Node, publisher: Publisher[Message], name: Name) -> bool
     return heard
 
 
-def _hears(node: Node, publisher: Publisher[Message], name: Name) -> bool:
-    """Say whether anybody hears; a robot's black box hears whatever is said, and is nobody it is said to."""
+def _hears(node: Node, publisher: Publisher[M], name: Name, wanted: int = 1) -> bool:
+    """Say whether so many hear; a robot's black box hears whatever is said, and is nobody it is said to."""
     session = node.membership.session
-    known = bool(_company.members(name, "sub", presence.endpoints(session)))
-    return publisher.matched and (known or not presence.holders(session, name.robot, "blackbox"))
+    known = len(_company.members(name, "sub", presence.endpoints(session)))
+    if wanted != 1:
+        return known >= wanted
+    return publisher.matched and (bool(known) or not presence.holders(session, name.robot, "blackbox"))
 
 
 def _who_hears(node: Node, name: Name) -> str:

@@ -80,9 +80,14 @@ class Console:
         return self.pad.speeds
 
     @property
-    def certainty(self) -> str:
+    def about(self) -> list[tuple[str, str]]:
         """What the operator must do to drive, or why he cannot."""
-        return self.pad.words
+        return [("pad", self.pad.words)]
+
+    @property
+    def switches(self) -> dict[str, bool]:
+        """Which switches there are, and which are on."""
+        return self.keyboard.switches
 
     @property
     def help(self) -> list[tuple[str, str]]:

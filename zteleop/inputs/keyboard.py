@@ -5,17 +5,16 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Self
 
 from zteleop.control.stick import Speeds, Stick
-from zteleop.errors import DeviceError
 from zteleop.inputs import Drive, Wish
 from zteleop.inputs.held_keys import FIRST, REPEATING, Block
 from zteleop.inputs.holding import Holding
-from zteleop.inputs.keymap import DIRECTIONS, OTHER, Moves, bindings, describe, first_keys
+from zteleop.inputs.keymap import DIRECTIONS, OTHER, TOGGLE, Moves, bindings, describe, first_keys, switches
 from zteleop.inputs.levers import Levers, Steps
 from zteleop.inputs.speed_keys import FASTER, SLOWER, SpeedKeys
 from zteleop.inputs.wishes import Wishes
 from zteleop.messages import Vehicle
 from zteleop.terminal.keys import Key
-from zteleop.terminal.typed import Typed
+from zteleop.terminal.typed import Typed, open_terminal
 
 if TYPE_CHECKING:
     from zteleop.terminal.terminal import Terminal
@@ -53,7 +52,7 @@ class Keyboard:
         self._bindings = bindings(keys or {}, keymap)
         self._typed = Typed(terminal or open_terminal())
         self._speed_keys = SpeedKeys(speeds or Speeds())
-        self._wishes = Wishes()
+        self._wishes = Wishes(switches(self._bindings))
         self._levers = Levers(steps)
         self._holding = Holding()
         self._block = Block()
@@ -110,6 +109,17 @@ class Keyboard:
         if self._block.is_felt(self._now):
             return f"pressed in vain: let go for {FIRST} s"
         return "release guessed; kitty, foot, ghostty tell it"
+
+    @property
+    def switches(self) -> dict[str, bool]:
+        """Which switches there are, and which are on."""
+        return self._wishes.switches
+
+    @property
+    def about(self) -> list[tuple[str, str]]:
+        """What a screen says of it: how sure it is which keys are held, and what is switched on."""
+        told = ", ".join(f"{name} {'on' if on else 'off'}" for name, on in self.switches.items())
+        return [("keys", self.certainty), *([("switches", told)] if told else [])]
 
     def settle(self, clock: Callable[[], float]) -> None:
         """Wait, not for long, until the terminal has said what it can.
@@ -207,6 +217,8 @@ class Keyboard:
             return
         if action in DIRECTIONS:
             self._drive(key, DIRECTIONS[action])
+        elif action.startswith(TOGGLE):
+            self._toggle(key, action.removeprefix(TOGGLE))
         elif action:
             ACTIONS[action](self)
 
@@ -220,6 +232,11 @@ class Keyboard:
             return
         for axis, sign in moves:
             self._levers.press(axis, sign)
+
+    def _toggle(self, key: Key, switch: str) -> None:
+        """Switch once for each press; where a repeat may look like one, once for each time it is held."""
+        if key.event != "repeat":
+            self._wishes.toggle(switch, 0.0 if self.tells_releases else FIRST, self._now)
 
     def neutral(self) -> None:
         """Bring both axes to neutral."""
@@ -280,15 +297,3 @@ ACTIONS: dict[str, Callable[[Keyboard], None]] = {
     "redraw": Keyboard.redraw,
     "help": Keyboard.toggle_help,
 }
-
-
-def open_terminal() -> "Terminal":
-    """Return the terminal the program runs in; DeviceError where there is none."""
-    try:
-        from zteleop.terminal.terminal import Terminal
-    except ImportError as error:
-        raise DeviceError(
-            f"expected a terminal with Unix modes, found a Python without {error.name}; "
-            "run it on Linux, macOS or in WSL"
-        ) from None
-    return Terminal()

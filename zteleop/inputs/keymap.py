@@ -1,5 +1,6 @@
 """Which key does what: maps by name, to which the configuration adds."""
 
+import re
 from collections.abc import Mapping
 
 from zteleop.errors import ConfigError, nearest
@@ -35,6 +36,9 @@ DOES: dict[str, str] = {
 HOW: dict[Drive, str] = {"step": ", a step each press", "hold": ", while it is held"}
 SPEEDS = {"faster", "slower", "turn faster", "turn slower", "all faster", "all slower"}
 """Of a full stick; levers know none."""
+TOGGLE = "toggle "
+"""Before the name of a switch, which is said as true or false on the topic of that name."""
+SWITCH = re.compile(r"[a-z][a-z0-9_]{0,30}")
 OTHER = "other"
 """In a map, every key that is not in it."""
 
@@ -79,8 +83,11 @@ def keymap(name: str) -> dict[str, str]:
 def bindings(keys: Mapping[str, str], name: str = "all") -> dict[str, str]:
     """Return the keys bound here beside those of a map; raises ConfigError for an action there is not."""
     for key, action in keys.items():
-        if action not in DOES:
-            raise ConfigError(f"key {key!r}: no action {action!r}; {nearest(action, DOES)}")
+        if action.startswith(TOGGLE) and not SWITCH.fullmatch(action.removeprefix(TOGGLE)):
+            raise ConfigError(f"key {key!r}: a switch has a name such as lights_2, found {action!r}")
+        if action not in DOES and not action.startswith(TOGGLE):
+            known = [*DOES, f"{TOGGLE}NAME"]
+            raise ConfigError(f"key {key!r}: no action {action!r}; {nearest(action, known)}")
     found = {**keymap(name), **keys}
     if found["ctrl-c"] != "quit":
         raise ConfigError(f"key 'ctrl-c' quits, whatever else does; found {found['ctrl-c']!r}")
@@ -97,7 +104,12 @@ def describe(keys: Mapping[str, str], drive: Drive | None = None) -> list[tuple[
         bound = [key if key != OTHER else "any other" for key, act in keys.items() if act == action]
         if bound and not (drive == "step" and action in SPEEDS):
             told.append((" ".join(bound), does + (how if action in DIRECTIONS else "")))
-    return told
+    return told + [(key, f"{act}, on or off") for key, act in keys.items() if act.startswith(TOGGLE)]
+
+
+def switches(keys: Mapping[str, str]) -> list[str]:
+    """Return the names of the switches that keys are bound to."""
+    return [action.removeprefix(TOGGLE) for action in keys.values() if action.startswith(TOGGLE)]
 
 
 def first_keys(keys: Mapping[str, str]) -> dict[str, str]:

@@ -1,19 +1,31 @@
 """What an operator asks besides driving: of the robot, by keys that repeat while held, and of the screen."""
 
+from collections.abc import Iterable
+
 from zteleop.inputs import Wish
 
 
 class Wishes:
     """The newest that nobody has taken yet; a release never takes back a stop."""
 
-    def __init__(self) -> None:
+    def __init__(self, switches: Iterable[str] = ()) -> None:
         self.newest: Wish | None = None
         self.help = False
         """Show what each key does."""
-        self._asked = dict.fromkeys(Wish, float("-inf"))
+        self.switches = dict.fromkeys(switches, False)
+        """Which are on."""
+        self._asked: dict[Wish | str, float] = {}
 
     def ask(self, wish: Wish, gap: float, now: float) -> None:
         """Take in a press; one that follows the last within `gap` s is a key's repeat, and asks nothing."""
-        if now - self._asked[wish] > gap and self.newest is not Wish.STOP:
+        if self._is_new(wish, gap, now) and self.newest is not Wish.STOP:
             self.newest = wish
-        self._asked[wish] = now
+
+    def toggle(self, switch: str, gap: float, now: float) -> None:
+        """Take in a press of a switch's key."""
+        if self._is_new(switch, gap, now):
+            self.switches[switch] = not self.switches[switch]
+
+    def _is_new(self, what: Wish | str, gap: float, now: float) -> bool:
+        before, self._asked[what] = self._asked.get(what, float("-inf")), now
+        return now - before > gap

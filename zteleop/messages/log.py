@@ -13,6 +13,7 @@ class Log(Message):
     INFO: ClassVar[int] = 20
     WARN: ClassVar[int] = 30
     ERROR: ClassVar[int] = 40
+    FATAL: ClassVar[int] = 50
 
     stamp: Time
     level: UInt8

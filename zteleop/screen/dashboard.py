@@ -34,10 +34,8 @@ class Dashboard(NamedTuple):
     """whether it is too early to say that the robot is not heard"""
     others: str = ""
     """which robots could have been meant, where this one is not heard"""
-    certainty: str = ""
-    """how sure it is which keys are held, or what a pad wants"""
-    device: str = "keys"
-    """what that is about"""
+    about: Sequence[tuple[str, str]] = ()
+    """what there is to say of the device, by a short name: how sure it is which keys are held"""
     floor: Sequence[Mark] = ()
     """lies around the robot"""
     bound: Mapping[str, str] = USUAL

@@ -27,10 +27,13 @@ def readings(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
 
 
 def device_lines(d: Dashboard, columns: int) -> list[Line]:
-    """Return how sure it is what the operator holds, or what he must do to drive."""
-    room = len(labelled(8, d.device, "", columns).spans[0].text)
-    told = wrap(d.certainty, max(columns - room, room))
-    return [labelled(8, "" if row else d.device, text, columns, "dim") for row, text in enumerate(told)]
+    """Return what there is to say of the device, in whole words."""
+    room = max(columns - len(labelled(8, "", "", columns).spans[0].text), 1)
+    return [
+        labelled(8, "" if row else name, text, columns, "dim")
+        for name, words in d.about
+        for row, text in enumerate(wrap(words, room))
+    ]
 
 
 def link_lines(d: Dashboard, columns: int) -> list[Line]:

@@ -2,6 +2,7 @@
 
 from typing import TYPE_CHECKING
 
+from zteleop.errors import DeviceError
 from zteleop.terminal.keys import Key, KeyParser, Report
 from zteleop.terminal.releases import Releases
 
@@ -55,3 +56,15 @@ class Typed:
         self._resumed = self.terminal.resumed
         self._parser = KeyParser()
         self.releases.ask(now)
+
+
+def open_terminal() -> "Terminal":
+    """Return the terminal the program runs in; DeviceError where there is none."""
+    try:
+        from zteleop.terminal.terminal import Terminal
+    except ImportError as error:
+        raise DeviceError(
+            f"expected a terminal with Unix modes, found a Python without {error.name}; "
+            "run it on Linux, macOS or in WSL"
+        ) from None
+    return Terminal()

@@ -47,9 +47,11 @@ def test_a_robot_without_a_topic_is_no_topic(text: str) -> None:
         resolve(text, "archangel")
 
 
-def test_a_topic_as_ros_says_it_is_told_how_it_is_said_here() -> None:
-    with pytest.raises(ConfigError, match="found '/odom'; say odom, or /ROBOT/odom"):
-        resolve("/odom", "archangel")
+@pytest.mark.parametrize(("text", "path"), [("/odom", "odom"), ("/chatter", "chatter"), ("/controls", "pwm")])
+def test_a_topic_as_ros_says_it_is_the_robots_that_is_meant(text: str, path: str) -> None:
+    assert resolve(text, "archangel") == Name("archangel", path)
+    with pytest.raises(ConfigError, match=f"topic '{text}' names no robot; say ROBOT{text}"):
+        resolve(text, None)
 
 
 def test_a_name_that_could_be_two_robots_is_not_guessed() -> None:

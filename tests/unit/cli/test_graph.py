@@ -3,7 +3,7 @@
 import pytest
 
 from zteleop.bus.presence import Endpoint, Member
-from zteleop.cli import info, node_info
+from zteleop.cli import graph, info, node_info
 from zteleop.cli._graph import Graph, types_of
 from zteleop.errors import BusError
 
@@ -97,3 +97,21 @@ def test_a_node_of_several_robots_or_of_none_is_asked_about() -> None:
         node_info._named("actuator", HERE._replace(robot=None))
     with pytest.raises(BusError, match="Unable to find node 'keybord'; did you mean /abe/keyboard"):
         node_info._named("keybord", HERE)
+
+
+def test_a_graph_is_an_arrow_for_each_topic() -> None:
+    assert list(graph.as_text(HERE)) == [
+        "/abe/chatter       nobody -> echo",
+        "/abe/cmd_vel       keyboard -> actuator",
+        "/abe/drive_status  actuator -> nobody",
+        "/bob/drive_status  actuator -> nobody",
+    ]
+
+
+def test_a_graph_can_be_drawn_whatever_a_stranger_calls_himself() -> None:
+    dot = list(graph.as_dot(HERE._replace(endpoints=[*HERE.endpoints, end("x", "pub", 'a"b', "any")])))
+    assert (dot[0], dot[-1]) == ("digraph zteleop {", "}")
+    assert '  "/abe/cmd_vel" [shape=box];' in dot
+    assert '  "/abe/keyboard" -> "/abe/cmd_vel";' in dot
+    assert '  "/abe/cmd_vel" -> "/abe/actuator";' in dot
+    assert '  "/abe/a\\"b" -> "/abe/x";' in dot

@@ -37,7 +37,7 @@ def say(
 
     node.spin = spin
     try:
-        pub._say(node, said, message, 10.0, times, resume, 0.5)
+        pub._say(node, said, lambda: message, 10.0, times, resume, 0.5)
     except KeyboardInterrupt:
         assert times is None
     return said.messages

@@ -8,6 +8,7 @@ from zteleop.errors import ConfigError
 from zteleop.inputs import Wish
 from zteleop.inputs.held_keys import FIRST, REPEATING
 from zteleop.inputs.holding import UNCONFIRMED
+from zteleop.inputs.keymap import bindings, describe
 from zteleop.messages import Channel, Vehicle
 
 DELETE = b"\x7f"
@@ -398,3 +399,16 @@ def test_a_key_that_backs_to_the_left_does_so_on_wheels_that_steer_and_on_tracks
         twist = to_twist(typist.stick(), Speeds(0.3, 1.0), vehicle)
         assert twist.linear.x < 0
         assert twist.angular.z < 0, "as teleop_twist_keyboard"
+
+
+def test_a_key_may_be_a_switch_once_for_each_time_it_is_held(car):
+    typist = Typist("step", car, keys={"l": "toggle lights", "h": "toggle horn"})
+    assert typist.keyboard.about[1] == ("switches", "lights off, horn off")
+    for _ in range(5):
+        typist.type(b"l", after=0.5)
+    assert typist.keyboard.switches == {"lights": True, "horn": False}
+    typist.type(b"lh", after=FIRST + 0.01)
+    assert typist.keyboard.switches == {"lights": False, "horn": True}
+    assert typist.keyboard.about[1] == ("switches", "lights off, horn on")
+    assert typist.stick() == Stick(), "no switch drives"
+    assert ("l", "toggle lights, on or off") in describe(bindings({"l": "toggle lights"}))

@@ -194,3 +194,13 @@ def test_a_terminal_that_no_longer_tells_releases_has_let_go_of_what_was_held(to
     assert told.stick() == Stick()
     assert not told.keyboard.tells_releases
     assert not told.type(b"", after=TICK), "no key is known to be down"
+
+
+def test_where_releases_are_told_each_press_switches_and_no_repeat_does(car):
+    typist = Typist("hold", car, keys={"l": "toggle lights"})
+    typist.tell_releases()
+    for _ in range(3):
+        typist.press("l", after=0.02)
+        typist.type(pressed("l", 2), after=0.02)
+        typist.release("l", after=0.02)
+    assert typist.keyboard.switches == {"lights": True}

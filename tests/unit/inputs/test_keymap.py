@@ -58,3 +58,11 @@ def test_every_action_is_told_in_words():
 def test_the_first_key_of_an_action_is_the_one_to_name():
     found = first_keys({"up": "forward", "ctrl-c": "quit", "w": "forward", OTHER: "neutral", "z": "quit"})
     assert found == {"forward": "up", "quit": "z"}
+
+
+@pytest.mark.parametrize(
+    "action", ["toggle ", "toggle Lights", "toggle a/b", "toggle cmd vel", "toggle x" * 9]
+)
+def test_a_switch_has_the_name_of_a_topic(action):
+    with pytest.raises(ConfigError, match="key 'l': a switch has a name such as lights_2"):
+        bindings({"l": action})

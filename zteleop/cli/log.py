@@ -1,0 +1,53 @@
+import argparse
+import sys
+from collections.abc import Iterable
+from os import environ
+
+from zteleop.bus import codec
+from zteleop.bus.escape import printable
+from zteleop.cli import _options
+from zteleop.cli._listening import Arrival, listening
+from zteleop.errors import MessageError
+from zteleop.messages import Log
+from zteleop.terminal.capabilities import wants_color
+
+EXAMPLES = (
+    "zteleop log",
+    "zteleop log --level warn --node actuator",
+)
+LEVELS = {"debug": Log.DEBUG, "info": Log.INFO, "warn": Log.WARN, "error": Log.ERROR, "fatal": Log.FATAL}
+COLORS = {Log.WARN: "33", Log.ERROR: "31", Log.FATAL: "1;31"}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    _options.add(parser)
+    parser.add_argument("--level", choices=[*LEVELS], default="info", help="nothing less than that (info)")
+    parser.add_argument("--node", metavar="NAME", action="append", help="only of that node; may be repeated")
+
+
+def run(arguments: argparse.Namespace) -> None:
+    least, nodes = LEVELS[arguments.level], frozenset(arguments.node or ())
+    color = sys.stdout.isatty() and wants_color(environ)
+    with listening("log", ["log"], arguments) as (ears, (name,)):
+
+        def show(arrival: Arrival) -> None:
+            for line in lines(arrival, least, nodes, color):
+                print(line, flush=True)
+
+        ears.hear(name, show)
+        ears.run()
+
+
+def lines(arrival: Arrival, least: int, nodes: Iterable[str], color: bool) -> Iterable[str]:
+    """Yield a line for what a node logs, if it is wanted; for what is no log, nothing."""
+    try:
+        said = codec.decode(arrival.sample.payload, arrival.sample.encoding, codec.decoders([Log]))
+    except MessageError as error:
+        yield printable(f"{arrival.sample.key}: {error}")
+        return
+    if isinstance(said, Log) and said.level >= least and (not nodes or said.name in nodes):
+        level = next((word for word, number in LEVELS.items() if number == said.level), f"{said.level}")
+        text = printable(
+            f"[{level.upper()}] [{said.stamp.sec}.{said.stamp.nanosec:09}] [{said.name}]: {said.msg}"
+        )
+        yield f"\x1b[{COLORS[said.level]}m{text}\x1b[0m" if color and said.level in COLORS else text
