@@ -1,0 +1,64 @@
+import sys
+from pathlib import Path
+
+import pytest
+
+from zteleop.cli import up
+from zteleop.errors import ConfigError
+from zteleop.machine.launch import Program
+
+PATH = Path("/etc/zteleop/config.toml")
+ZTELEOP = (sys.executable, "-m", "zteleop")
+
+
+@pytest.mark.parametrize(
+    ("words", "command", "ends_first"),
+    [
+        (
+            "actuator -l tcp/[::]:7447",
+            [*ZTELEOP, "actuator", "--config", str(PATH), "-l", "tcp/[::]:7447", "--with-parent"],
+            True,
+        ),
+        ("sim --config other.toml", [*ZTELEOP, "sim", "--config", "other.toml", "--with-parent"], False),
+        ("topic echo odom", [*ZTELEOP, "topic", "echo", "--config", str(PATH), "odom"], False),
+        ("python3 'my program.py'", ["python3", "my program.py"], False),
+        ("./follow", ["./follow"], False),
+        ("interface list", [*ZTELEOP, "interface", "list"], False),
+    ],
+)
+def test_an_entry_is_a_verb_with_the_same_settings_or_any_program(
+    words: str, command: list[str], ends_first: bool
+) -> None:
+    assert up.program("x", words, PATH) == Program(command, ends_first)
+
+
+@pytest.mark.parametrize(
+    ("words", "refusal"),
+    [
+        ("", "launch.x: expected a command"),
+        ("echo 'odom", "launch.x: no closing quotation in"),
+        ("keyboard --drive hold", "launch.x: zteleop keyboard wants a terminal of its own"),
+        ("actuatr", "no program 'actuatr', and no verb of zteleop; did you mean actuator?"),
+    ],
+)
+def test_an_entry_that_cannot_be_started_is_refused(words: str, refusal: str) -> None:
+    with pytest.raises(ConfigError, match=refusal):
+        up.program("x", words, PATH)
+
+
+def test_a_unit_starts_the_same_and_an_actuators_is_watched() -> None:
+    text = up.unit("robot", up.program("robot", "actuator", PATH))
+    assert text.startswith("# /etc/systemd/system/zteleop-robot.service\n[Unit]\n")
+    assert f"ExecStart={sys.executable} -m zteleop actuator --config {PATH}\n" in text
+    assert "WatchdogSec=2\n" in text
+    assert "--with-parent" not in text, "systemd gives it no input that lasts"
+    assert "WatchdogSec" not in up.unit("world", up.program("world", "sim", PATH))
+
+
+def test_each_line_stands_behind_its_name(capsys: pytest.CaptureFixture[str]) -> None:
+    tell = up.Teller(["robot", "sim"], color=False)
+    tell("robot", "obeys")
+    tell("sim", "\x1b[2Jmoves")
+    assert capsys.readouterr().out == "robot | obeys\nsim   | \\u001b[2Jmoves\n"
+    up.Teller(["robot"], color=True)("robot", "obeys")
+    assert capsys.readouterr().out == "\x1b[36mrobot |\x1b[0m obeys\n"

@@ -1,0 +1,128 @@
+import argparse
+import shlex
+import sys
+from collections.abc import Mapping
+from os import environ
+from pathlib import Path
+
+from zteleop import config
+from zteleop.bus.escape import printable
+from zteleop.cli import VERBS, find_verb
+from zteleop.cli._completing import places_of
+from zteleop.errors import ConfigError, nearest
+from zteleop.machine.launch import Launch, Program
+from zteleop.terminal.capabilities import wants_color
+
+EXAMPLES = (
+    "zteleop up",
+    "zteleop up --systemd",
+)
+NEEDS_TERMINAL = ("demo", "gamepad", "keyboard", "keys")
+LEASHED = ("actuator", "sim")
+"""verbs that end when whoever started them does"""
+COLORS = ("36", "33", "35", "32", "34")
+UNIT = """\
+# /etc/systemd/system/zteleop-{name}.service
+[Unit]
+Description=zteleop: {name}
+
+[Service]
+{kind}ExecStart={command}
+Restart=on-failure
+RestartSec=1
+
+[Install]
+WantedBy=multi-user.target
+"""
+OF_A_ROBOT = """\
+Type=notify
+NotifyAccess=main
+WatchdogSec=2
+WatchdogSignal=SIGKILL
+KillMode=mixed
+SuccessExitStatus=143
+"""
+"""for an actuator, whose watchdog says that it lives; deploy/zteleop.service has more, for a Pi"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "file", metavar="FILE", nargs="?", type=Path, help="settings (default: ./config.toml)"
+    )
+    parser.add_argument("--systemd", action="store_true", help="print a unit file for each, and end")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    path = arguments.file or config.found()
+    launch = config.load(path).launch
+    if not launch or path is None:
+        where = path or "config.toml"
+        raise ConfigError(f'nothing to start: write [launch] into {where}, such as robot = "actuator"')
+    programs = {name: program(name, words, path) for name, words in launch.items()}
+    if arguments.systemd:
+        print("\n".join(unit(name, one) for name, one in programs.items()), end="")
+        return 0
+    return Launch(programs, teller(programs)).run()
+
+
+def program(name: str, words: str, path: Path) -> Program:
+    """Return what an entry of [launch] starts: a verb of zteleop, or any other program.
+
+    Raises ConfigError for words that are none, and for a verb that wants a terminal.
+    """
+    try:
+        typed = shlex.split(words)
+    except ValueError as error:
+        raise ConfigError(f"launch.{name}: {str(error).lower()} in {words!r}") from None
+    if not typed:
+        raise ConfigError(f'launch.{name}: expected a command, such as "actuator", found nothing')
+    verb, rest = find_verb(typed)
+    if verb in NEEDS_TERMINAL:
+        raise ConfigError(f"launch.{name}: zteleop {verb} wants a terminal of its own; start it by hand")
+    if verb in VERBS:
+        typed = [*typed[: len(typed) - len(rest)], *_settings(verb, rest, path), *rest]
+        leash = ["--with-parent"] if verb in LEASHED else []
+        return Program([sys.executable, "-m", "zteleop", *typed, *leash], verb == "actuator")
+    if "/" not in verb and not _on_path(verb):
+        known = [one for one in VERBS if one not in NEEDS_TERMINAL]
+        raise ConfigError(
+            f"launch.{name}: no program {verb!r}, and no verb of zteleop; {nearest(verb, known)}"
+        )
+    return Program(typed)
+
+
+def teller(programs: Mapping[str, Program]) -> "Teller":
+    return Teller(list(programs), sys.stdout.isatty() and wants_color(environ))
+
+
+class Teller:
+    """Prints what each program says behind its name."""
+
+    def __init__(self, names: list[str], color: bool) -> None:
+        self._width = max(map(len, names))
+        self._colors = {name: COLORS[place % len(COLORS)] for place, name in enumerate(names)}
+        self._color = color
+
+    def __call__(self, name: str, line: str) -> None:
+        head = f"{name:{self._width}} |"
+        if self._color:
+            head = f"\x1b[{self._colors[name]}m{head}\x1b[0m"
+        print(f"{head} {printable(line)}", flush=True)
+
+
+def unit(name: str, one: Program) -> str:
+    """Return a systemd unit that starts a program with the machine, and again when it fails."""
+    command = shlex.join(word for word in one.command if word != "--with-parent")
+    return UNIT.format(name=name, command=command, kind=OF_A_ROBOT if one.ends_first else "")
+
+
+def _settings(verb: str, rest: list[str], path: Path) -> list[str]:
+    """Return the option that leads a verb to the same settings, unless it names others, or reads none."""
+    knows = "--config" in places_of(verb).options
+    return ["--config", str(path.resolve())] if knows and "--config" not in rest else []
+
+
+def _on_path(name: str) -> bool:
+    from shutil import which
+
+    return which(name) is not None
