@@ -2,7 +2,7 @@
 
 from collections import deque
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
 from msgspec.structs import replace
 
@@ -12,9 +12,7 @@ from zteleop.inputs import Drive
 from zteleop.screen.dashboard import Dashboard
 from zteleop.screen.render import render
 from zteleop.screen.view import View
-
-if TYPE_CHECKING:
-    from zteleop.terminal.terminal import Terminal
+from zteleop.terminal.any_terminal import AnyTerminal
 
 HEARD_WITHIN = 0.6
 """s in which a robot that is there is heard"""
@@ -29,7 +27,7 @@ class Shown(Protocol):
     drive: Drive
 
     @property
-    def terminal(self) -> "Terminal":
+    def terminal(self) -> AnyTerminal:
         """Where the screen is."""
 
     @property

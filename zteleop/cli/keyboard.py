@@ -14,6 +14,7 @@ from zteleop.messages import Vehicle
 from zteleop.screen.dashboard import Dashboard
 from zteleop.screen.top_view import Mark
 from zteleop.screen.view import View
+from zteleop.terminal.typed import Keys, Typed, open_terminal
 
 EXAMPLES = (
     "zteleop keyboard",
@@ -24,6 +25,13 @@ EXAMPLES = (
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add(parser)
     parser.epilog = f"{key_table()}\n\n{parser.epilog}"
+    parser.add_argument(
+        "--input",
+        choices=["terminal", "evdev", "stdin"],
+        default="terminal",
+        help="evdev: releases from the keyboards of this Linux machine, for a terminal that tells none; "
+        "stdin: keys from a pipe, without a screen",
+    )
     parser.add_argument("--keymap", choices=[*KEYMAPS], help="which keys do what (default: all)")
     parser.add_argument(
         "--drive",
@@ -45,7 +53,21 @@ def run(arguments: argparse.Namespace) -> None:
     if arguments.keymap:
         settings = msgspec.structs.replace(settings, keymap=arguments.keymap)
     with _options.join("keyboard", settings) as node:
-        drive_with_keys(node, settings, arguments.drive)
+        drive_with_keys(node, settings, arguments.drive, typed=typed_at(arguments.input))
+
+
+def typed_at(name: str) -> Keys:
+    """Return where the keys come from; raises DeviceError where there are none."""
+    if name == "stdin":
+        from zteleop.terminal.piped import PipedTerminal
+
+        return Typed(PipedTerminal())
+    typed = Typed(open_terminal())
+    if name == "terminal":
+        return typed
+    from zteleop.inputs.evdev.told_keys import ToldKeys
+
+    return ToldKeys(typed)
 
 
 def drive_with_keys(
@@ -54,6 +76,7 @@ def drive_with_keys(
     drive: Drive | None = None,
     floor: Sequence[Mark] = (),
     watch: Callable[[View], None] = lambda view: None,
+    typed: Keys | None = None,
 ) -> Drive:
     """Show the keyboard screen, with what lies on the floor, and drive until the operator has enough.
 
@@ -61,7 +84,11 @@ def drive_with_keys(
     what takes them.
     """
     keyboard = Keyboard(
-        speeds=settings.speeds, steps=settings.steps, keymap=settings.keymap, keys=settings.keys
+        speeds=settings.speeds,
+        steps=settings.steps,
+        keymap=settings.keymap,
+        keys=settings.keys,
+        typed=typed,
     )
     known = Dashboard(
         robot=node.robot or "",

@@ -2,16 +2,14 @@
 
 from collections.abc import Callable
 from selectors import EVENT_READ, DefaultSelector
-from typing import TYPE_CHECKING, Self
+from typing import Self
 
 from zteleop.control.stick import Speeds, Stick
 from zteleop.inputs import Drive, Wish
 from zteleop.inputs.gamepad import Gamepad
 from zteleop.inputs.keyboard import Keyboard
 from zteleop.messages import Vehicle
-
-if TYPE_CHECKING:
-    from zteleop.terminal.terminal import Terminal
+from zteleop.terminal.any_terminal import AnyTerminal
 
 
 class Console:
@@ -41,7 +39,7 @@ class Console:
         self.pad.__exit__(*exc)
 
     @property
-    def terminal(self) -> "Terminal":
+    def terminal(self) -> AnyTerminal:
         """Where the screen is."""
         return self.keyboard.terminal
 

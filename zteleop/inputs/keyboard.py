@@ -2,7 +2,7 @@
 
 import select
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Self
+from typing import Self
 
 from zteleop.control.stick import Speeds, Stick
 from zteleop.inputs import Drive, Wish
@@ -13,11 +13,9 @@ from zteleop.inputs.levers import Levers, Steps
 from zteleop.inputs.speed_keys import FASTER, SLOWER, SpeedKeys
 from zteleop.inputs.wishes import Wishes
 from zteleop.messages import Vehicle
+from zteleop.terminal.any_terminal import AnyTerminal
 from zteleop.terminal.keys import Key
-from zteleop.terminal.typed import Typed, open_terminal
-
-if TYPE_CHECKING:
-    from zteleop.terminal.terminal import Terminal
+from zteleop.terminal.typed import Keys, Typed, open_terminal
 
 IDLE_LIMIT = 5.0
 """s without a key until neutral; the robot may shorten it."""
@@ -41,7 +39,8 @@ class Keyboard:
         steps: Steps | None = None,
         keymap: str = "all",
         keys: Mapping[str, str] | None = None,
-        terminal: "Terminal | None" = None,
+        terminal: AnyTerminal | None = None,
+        typed: Keys | None = None,
     ) -> None:
         self.drive: Drive = drive
         self.finished = False
@@ -50,7 +49,7 @@ class Keyboard:
         """Ctrl-Z was pressed: publish neutral, then call `suspend`."""
         self.idle_limit = IDLE_LIMIT
         self._bindings = bindings(keys or {}, keymap)
-        self._typed = Typed(terminal or open_terminal())
+        self._typed: Keys = typed or Typed(terminal or open_terminal())
         self._speed_keys = SpeedKeys(speeds or Speeds())
         self._wishes = Wishes(switches(self._bindings))
         self._levers = Levers(steps)
@@ -65,10 +64,11 @@ class Keyboard:
 
     def __exit__(self, *exc: object) -> None:
         self.neutral()
+        self._typed.close()
         self.terminal.__exit__(*exc)
 
     @property
-    def terminal(self) -> "Terminal":
+    def terminal(self) -> AnyTerminal:
         """Where the keys come from."""
         return self._typed.terminal
 
@@ -105,7 +105,8 @@ class Keyboard:
     def certainty(self) -> str:
         """How sure it is which keys are held, and what would make it surer."""
         if self.tells_releases:
-            return "release told (kitty protocol)" if self._typed.releases.focused else "no focus: neutral"
+            how = self._typed.releases.how
+            return f"release told ({how})" if self._typed.releases.focused else "no focus: neutral"
         if self._block.is_felt(self._now):
             return f"pressed in vain: let go for {FIRST} s"
         return "release guessed; kitty, foot, ghostty tell it"
@@ -137,7 +138,7 @@ class Keyboard:
 
     def fileno(self) -> int:
         """Return what turns readable when a key was pressed."""
-        return self.terminal.fileno()
+        return self._typed.fileno()
 
     def fit(self, vehicle: Vehicle) -> None:
         """Learn the limits of the robot driven; another calibration is neutral again.
@@ -267,10 +268,6 @@ class Keyboard:
         self.reset(self._now)
         self.suspending = True
 
-    def redraw(self) -> None:
-        """Write the screen anew."""
-        self.terminal.redraw()
-
     def toggle_help(self) -> None:
         """Show what each key does, or hide it."""
         self._wishes.help = not self._wishes.help
@@ -294,6 +291,6 @@ ACTIONS: dict[str, Callable[[Keyboard], None]] = {
     "nothing": lambda keyboard: None,
     "quit": Keyboard.quit,
     "suspend": Keyboard.ask_to_suspend,
-    "redraw": Keyboard.redraw,
+    "redraw": lambda keyboard: keyboard.terminal.redraw(),
     "help": Keyboard.toggle_help,
 }

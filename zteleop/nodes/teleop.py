@@ -15,6 +15,8 @@ from zteleop.nodes.stop_request import Stopping, person
 from zteleop.screen.view import View
 
 PERIOD = TOPICS["cmd_vel"].every
+AT_REST = 4 * PERIOD
+"""s between two looks while nobody drives: a screen at which nobody sits costs little"""
 NEUTRALS = 3
 LATE = 0.5
 """s between two looks at the device, after which this process knows that it was stopped itself."""
@@ -59,13 +61,26 @@ class Teleop:
         file = self._device.fileno()
         if file is not None:
             self._node.membership.loop.watch(file, self.obey)
-        self._node.every(PERIOD)(self.obey)
+        self._node.every(PERIOD)(self._tick)
+        self._node.every(AT_REST)(self.obey)  # a key that is pressed wakes it at once
         try:
             self._node.spin()
         finally:
             self._say(None)
         if self._stopping.unanswered:
             raise BusError(self._stopping.words)
+
+    def _tick(self) -> None:
+        if self._is_busy:
+            self.obey()
+
+    @property
+    def _is_busy(self) -> bool:
+        """Something is asked for, or just was, or the robot is driven by somebody else."""
+        status = self._sight.status
+        driven = status is not None and status.state == "driving"
+        stops = self._stopping.state == "pending" or self._stopping.repeats(clock.now())
+        return driven or stops or self._stick.deadman or self._neutrals > 0
 
     def obey(self) -> None:
         """Take in what the operator did, say what the stick asks for, and soon show it."""

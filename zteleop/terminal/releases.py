@@ -4,12 +4,8 @@ It is asked for kitty's keyboard protocol, and for its attributes, which every t
 waits in vain for the answer of one that does not know the first.
 """
 
-from typing import TYPE_CHECKING
-
+from zteleop.terminal.any_terminal import AnyTerminal
 from zteleop.terminal.keys import Report
-
-if TYPE_CHECKING:
-    from zteleop.terminal.terminal import Terminal
 
 ASK = "\x1b[?u\x1b[c"
 ON, OFF = "\x1b[>15u\x1b[?1004h", "\x1b[?1004l\x1b[<u"
@@ -25,7 +21,9 @@ SILENT = 0.4
 class Releases:
     """Asks one terminal; `now` in s."""
 
-    def __init__(self, terminal: "Terminal") -> None:
+    def __init__(self, terminal: AnyTerminal) -> None:
+        self.how = "kitty protocol"
+        """By what it is told."""
         self._terminal = terminal
         self.told = False
         """It tells when a key is let go."""

@@ -13,7 +13,7 @@ from zteleop.inputs import Wish
 from zteleop.messages import DriveStatus, Log, Odometry, Pwm, Stop, Twist, Vehicle
 from zteleop.nodes import sight
 from zteleop.nodes.stop_request import ACKNOWLEDGED_WITHIN, REPEAT
-from zteleop.nodes.teleop import NEWS, PERIOD, SHOW_AFTER, Teleop
+from zteleop.nodes.teleop import AT_REST, NEWS, PERIOD, SHOW_AFTER, Teleop
 from zteleop.screen.view import View
 from zteleop.testing import Clock, FakeNode
 
@@ -222,9 +222,41 @@ def test_run_obeys_on_a_clock_and_whenever_the_device_can_be_read(desk: Desk) ->
     desk.device.file = 7
     desk.teleop.run()
     assert [(timer.period, timer.action) for timer in desk.node.loop.timers if timer.period] == [
-        (PERIOD, desk.teleop.obey)
+        (PERIOD, desk.teleop._tick),
+        (AT_REST, desk.teleop.obey),
     ]
     assert desk.node.loop.watched == {7: desk.teleop.obey}
+
+
+def test_where_nobody_drives_it_looks_less_often(desk: Desk) -> None:
+    looks: list[float] = []
+    desk.device.read = looks.append
+    desk.teleop._tick()
+    assert not looks
+    desk.hear_state("driving")  # somebody else
+    desk.teleop.obey()
+    desk.teleop._tick()
+    assert len(looks) == 2
+    desk.hear_state("idle")
+    desk.teleop.obey()
+    desk.teleop._tick()
+    assert len(looks) == 3
+
+
+@pytest.mark.parametrize("what", ["stick", "stop"])
+def test_whoever_drives_or_stops_is_looked_at_at_every_tick(desk: Desk, what: str) -> None:
+    if what == "stick":
+        desk.device.position = Stick(1.0, 0.0, deadman=True)
+    else:
+        desk.device.wish = Wish.STOP
+    desk.teleop.obey()
+    desk.device.position = Stick()
+    looks: list[float] = []
+    desk.device.read = looks.append
+    for _ in range(3):  # as many neutrals as it says
+        desk.clock.pass_by(PERIOD)
+        desk.teleop._tick()
+    assert len(looks) == 3
 
 
 def test_a_device_without_a_file_is_not_watched(desk: Desk) -> None:
