@@ -40,7 +40,7 @@ schemas: .venv/installed
 	$(BIN)/zteleop schema
 
 bench: .venv/installed-dev
-	@for name in key_to_wheel publish_to_handler control_and_codec shell keyboard idle_cost flood; do \
+	@for name in key_to_wheel publish_to_handler control_and_codec shell graph keyboard idle_cost flood; do \
 		$(BIN)/python benchmarks/$$name.py || exit 1; done
 
 # Above three hours: each fault 50 times, every failure in every state, bad links, half an hour each of floods and of

@@ -12,13 +12,14 @@ from msgspec import Struct, field
 
 from zteleop.bus.names import chunk, robot_name
 from zteleop.bus.settings import BusSettings
+from zteleop.bus.topics import topic_of
 from zteleop.control.settings import DriveSettings
 from zteleop.control.stick import Speeds
 from zteleop.drivers import DRIVERS, settings_kind, settings_of
 from zteleop.drivers.simulated import default_path
 from zteleop.errors import ConfigError
 from zteleop.inputs.gamepad_map import GamepadSettings
-from zteleop.inputs.keymap import bindings
+from zteleop.inputs.keymap import bindings, switches
 from zteleop.inputs.levers import Steps
 
 LONGEST = 2**20
@@ -57,7 +58,9 @@ class Config(Struct, frozen=True, forbid_unknown_fields=True):
     def __post_init__(self) -> None:
         if self.robot is not None:
             robot_name(self.robot)
-        bindings(self.keys, self.keymap)
+        for switch in switches(bindings(self.keys, self.keymap)):
+            if types := topic_of(switch).types:
+                raise ConfigError(f"no switch can be called {switch}: that is a topic of {types[0].__name__}")
         for name in self.launch:
             chunk(name, "a name in [launch]")
         for source in self.drive.sources:

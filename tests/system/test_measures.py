@@ -9,6 +9,8 @@ from collections.abc import Iterator
 import pytest
 from rig import NEUTRAL, PATIENCE, ZTELEOP, Process, Rig, repeating, until
 
+from zteleop.bus import presence
+from zteleop.bus.names import Name
 from zteleop.messages import Header, String, Time, TwistStamped
 
 HZ = 50.0
@@ -194,3 +196,12 @@ def test_log_shows_what_nodes_say_and_graph_who_says_what_to_whom(rig: Rig) -> N
     ended(log)
     assert re.search(r"^/bench/drive_status +actuator -> ", ask(rig, "graph"), re.MULTILINE)
     assert '  "/bench/actuator" -> "/bench/drive_status";' in ask(rig, "graph --dot").splitlines()
+
+
+def test_a_list_is_complete_however_many_topics_there_are(rig: Rig) -> None:
+    """Beyond 256 zenoh's own channel of replies is full, and whoever fills it is who should empty it."""
+    session = rig.node("crowd").membership.session
+    for number in range(600):
+        session.declare_token(presence.endpoint_key(Name("bench", f"t{number}"), "pub", "crowd", (String,)))
+    lines = ask(rig, "list").splitlines()
+    assert {f"/bench/t{number}" for number in range(600)} <= set(lines)

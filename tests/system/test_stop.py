@@ -216,7 +216,7 @@ def test_a_name_that_no_robot_has_is_told_with_those_that_are_heard(rig: Rig, ac
     where = [word for word in rig.bus_options() if word not in ("--robot", rig.robot)]
     done = rig.result("stop", "gabriel", *where)
     assert (done.returncode, done.stdout) == (1, "")
-    assert done.stderr.endswith("\nheard here: bench\n")
+    assert done.stderr.startswith("gabriel does not answer so far, and is asked on; heard here: bench\n")
 
 
 def test_a_robot_that_nobody_reaches_is_an_alarm_with_what_to_do(rig: Rig) -> None:
@@ -227,8 +227,9 @@ def test_a_robot_that_nobody_reaches_is_an_alarm_with_what_to_do(rig: Rig) -> No
     keyboard.shows("asking bench to stop")
     assert shell.ends() == 1
     assert shell.text == (
+        "bench does not answer so far, and is asked on; no robot is heard here\n"
         "zteleop stop: bench has not acknowledged the stop within 2 s: "
-        "cut its power, or run zteleop neutral on it\nno robot is heard here"
+        "cut its power, or run zteleop neutral on it"
     )
     keyboard.shows("bench has not acknowledged the stop within 2 s: cut its power")
     keyboard.type("q")

@@ -21,7 +21,7 @@ def launched(rig: Rig) -> None:
 def test_a_robot_and_its_world_start_together_and_end_in_order_wheels_first(rig: Rig) -> None:
     launched(rig)
     up = rig.run("up")
-    until(lambda: "robot | actuator: info: obeys bench" in up.text, "a robot")
+    until(lambda: "robot | actuator: info: bench obeys" in up.text, "a robot")
     until(lambda: "world | " in up.text, "a world")
     node = rig.node("driver")
     odom = node.subscription("odom", Odometry)
@@ -46,11 +46,11 @@ def test_a_robot_and_its_world_start_together_and_end_in_order_wheels_first(rig:
 def test_what_is_killed_is_started_again(rig: Rig) -> None:
     launched(rig)
     up = rig.run("up")
-    until(lambda: "obeys bench" in up.text, "a robot")
+    until(lambda: "bench obeys" in up.text, "a robot")
     (robot,) = [pid for pid in children(up.process.pid) if b"actuator" in command(pid)]
     os.kill(robot, signal.SIGKILL)
     until(lambda: "robot | ended with signal 9; starts again in 0.1 s" in up.text, "words")
-    until(lambda: up.text.count("obeys bench") == 2, "the robot again")
+    until(lambda: up.text.count("bench obeys") == 2, "the robot again")
     up.signal(signal.SIGTERM)
     assert up.ends() == 128 + signal.SIGTERM
 
@@ -58,7 +58,7 @@ def test_what_is_killed_is_started_again(rig: Rig) -> None:
 def test_a_robot_whose_starter_is_killed_ends_at_rest(rig: Rig) -> None:
     launched(rig)
     up = rig.run("up")
-    until(lambda: "obeys bench" in up.text, "a robot")
+    until(lambda: "bench obeys" in up.text, "a robot")
     theirs = children(up.process.pid)
     up.signal(signal.SIGKILL)
     until(lambda: not any(os.path.exists(f"/proc/{pid}") for pid in theirs), "nobody is left")

@@ -155,7 +155,9 @@ def test_echo_says_once_for_whom_it_waits_and_waits_on(
 ) -> None:
     echo = rig.run("echo", topic, "--no-multicast-scouting", "-e", rig.endpoint)
     echo.says(f"zteleop echo: waits for {words}")
-    with stranger.declare_publisher(f"robot/{topic.strip('/')}") as publisher:
+    patient = zenoh.CongestionControl.BLOCK  # else what does not leave within a millisecond is dropped
+    key = f"robot/{topic.strip('/')}"
+    with stranger.declare_publisher(key, congestion_control=patient) as publisher:
         until(lambda: publisher.matching_status.matching, "somebody who listens")
         publisher.put('{"data": "at last"}', encoding="application/json")
         echo.says("data: at last")

@@ -11,7 +11,7 @@ from zteleop.bus.topics import ALIASES, TOPICS
 from zteleop.errors import ConfigError
 
 _ROBOT = re.compile(r"[a-z0-9][a-z0-9_-]{0,62}")
-_ALIKE = 0.85
+_ALIKE = 0.75
 """of a name, from which on it is a mistake for another"""
 _CHUNK = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_-]{0,62}")
 

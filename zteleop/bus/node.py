@@ -89,11 +89,17 @@ class Node:
         if about.types and not set(kinds) <= set(about.types):
             takes = " or ".join(accepted.__name__ for accepted in about.types)
             raise ConfigError(f"{topic} takes {takes}, found {', '.join(k.__name__ for k in kinds)}")
-        if not (about.types or topic.startswith(f"/{name.robot}/")) and (near := known_as(name.path)):
-            self.log.warn(f"publishes {topic}, which no robot hears; did you mean {near}?")
+        self._notice_typo(topic, "publishes {}, which no robot hears")
         if not about.command:
             return Publisher(self.membership.outlet(name, kinds, about.urgent), kinds)
         return self._command_publisher(name, kinds, source, wait)
+
+    def _notice_typo(self, topic: str, words: str) -> None:
+        """Ask whoever names a topic that is nearly a known one; not who writes the robot's name as well."""
+        name = resolve(topic, self.robot)
+        is_meant = topic_of(name.path).types or topic.startswith(f"/{name.robot}/")
+        if not is_meant and (near := known_as(name.path)):
+            self.log.warn(f"{words.format(topic)}; did you mean {near}?")
 
     def _command_publisher(
         self, name: Name, kinds: tuple[type[M], ...], source: str, wait: bool
@@ -134,6 +140,7 @@ class Node:
         With a handler, `spin` hands it each message; without, iterate over the inbox. What is no
         message is dropped, counted, and said in the log unless somebody else does.
         """
+        self._notice_typo(topic, "hears {}, which no robot says")
         inbox: Subscription[M] = self.membership.inbox(topic, _tuple(types), depth, complain)
         if handler:
             self.membership.deliver(inbox, handler)

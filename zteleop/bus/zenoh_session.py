@@ -1,5 +1,6 @@
 """A session of zenoh as keys and bytes; only this file, `zenoh_open` and `linger` know zenoh."""
 
+import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, Protocol, Self
@@ -13,6 +14,8 @@ from zteleop.errors import BusError
 
 _REPLY_WITHIN = 2.0
 """s for everybody to say which tokens there are"""
+_MOST = 50_000
+"""tokens that are taken in; a stranger may declare any number"""
 
 
 class Undeclarable(Protocol):
@@ -72,8 +75,18 @@ class ZenohSession:
         self.zenoh.declare_subscriber("zteleop/proof", nobody, allowed_origin=inside).undeclare()  # type: ignore[no-untyped-call]
 
     def tokens(self, selector: str) -> set[str]:
-        replies = self.zenoh.liveliness().get(selector, timeout=_REPLY_WITHIN)
-        return {str(reply.ok.key_expr) for reply in replies if reply.ok}
+        found: set[str] = set()
+        told = threading.Event()
+
+        def take(reply: zenoh.Reply) -> None:
+            if reply.ok and len(found) < _MOST:
+                found.add(str(reply.ok.key_expr))
+
+        # Not by a channel: zenoh's holds 256, and whoever fills it here is who should empty it.
+        replies: Any = zenoh.handlers.Callback(take, told.set, indirect=False)
+        self.zenoh.liveliness().get(selector, replies, timeout=_REPLY_WITHIN)
+        told.wait(2 * _REPLY_WITHIN)
+        return set(found)
 
     def watch_tokens(self, selector: str, depth: int, history: bool = False) -> "ZenohRing":
         handler: Any = zenoh.handlers.RingChannel(depth)

@@ -157,7 +157,7 @@ def robots(patient: Patient) -> Finding:
         return Finding(False, str(error))
     if settings.robot and settings.robot not in found:
         return Finding(
-            False, f"{settings.robot} is not heard, {who_is_here(found, settings.robot)}; is its actuator on?"
+            None, f"{settings.robot} is not heard, {who_is_here(found, settings.robot)}; is its actuator on?"
         )
     return Finding(
         True if found else None, who_is_here(found) + ("" if found else "; zteleop demo starts one")

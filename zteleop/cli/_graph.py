@@ -43,6 +43,13 @@ class Graph(NamedTuple):
             name.path, {topic_of(one.topic).name for one in self.endpoints if one.robot == name.robot}
         )
 
+    def nobody(self, robot: str | None) -> str:
+        """Return what to tell whoever finds nobody, or not the robot he means."""
+        robots = {one.robot for one in self.nodes}
+        if robot and robots:
+            return f"robot {robot} is not heard; {_company.who_is_here(robots, robot)}"
+        return "nobody is on the bus; start one with: zteleop demo, or zteleop actuator"
+
     def topics(self) -> dict[str, list[Endpoint]]:
         """Return all topics as /robot/topic, and their endpoints."""
         return _company.by_topic(self.endpoints)

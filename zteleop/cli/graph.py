@@ -24,7 +24,7 @@ def run(arguments: argparse.Namespace) -> None:
         pass
     wanted = Graph([one for one in found.endpoints if arguments.robot in (None, one.robot)], [], found.robot)
     if not wanted.endpoints:
-        raise BusError("nobody is on the bus; start one with: zteleop demo, or zteleop actuator")
+        raise BusError(found.nobody(arguments.robot))
     print(printable("\n".join(as_dot(wanted) if arguments.dot else as_text(wanted)), keep="\n"))
 
 

@@ -26,8 +26,11 @@ def run(arguments: argparse.Namespace) -> int:
     endpoints = [one for one in everybody if settings.robot in (None, one.robot)]
     if not endpoints:
         others = f"; {_company.who_is_here((one.robot for one in everybody), settings.robot or '')}"
-        where = f"{settings.robot}{others if everybody else ''}" if settings.robot else "a robot"
-        print(f"nobody speaks for {where}; start one with: zteleop demo, or zteleop actuator")
+        if settings.robot and everybody:
+            print(f"nobody speaks for {settings.robot}{others}")
+        else:
+            where = settings.robot or "a robot"
+            print(f"nobody speaks for {where}; start one with: zteleop demo, or zteleop actuator")
         return 1
     if arguments.count_topics:
         print(len(_company.by_topic(endpoints)))

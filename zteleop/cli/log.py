@@ -29,6 +29,11 @@ def run(arguments: argparse.Namespace) -> None:
     least, nodes = LEVELS[arguments.level], frozenset(arguments.node or ())
     color = sys.stdout.isatty() and wants_color(environ)
     with listening("log", ["log"], arguments) as (ears, (name,)):
+        ears.patient = False
+        print(
+            f"zteleop log: what {name.robot} says from now on; what it said: zteleop blackbox",
+            file=sys.stderr,
+        )
 
         def show(arrival: Arrival) -> None:
             for line in lines(arrival, least, nodes, color):

@@ -23,5 +23,5 @@ def run(arguments: argparse.Namespace) -> None:
         print(len(nodes))
         return
     if not nodes:
-        raise BusError("no node is on the bus; start one with: zteleop demo, or zteleop actuator")
+        raise BusError(found.nobody(arguments.robot))
     print(printable("\n".join(f"/{node.robot}/{node.node}" for node in nodes), keep="\n"))

@@ -83,7 +83,7 @@ def run(arguments: argparse.Namespace) -> None:
         if arguments.stdin:
             _say_what_comes(node, publisher, kind)
             return
-        if command and not (times or arguments.lasts) and arguments.rate < 1 / OBEYED_FOR:
+        if command and not times and arguments.rate < 1 / OBEYED_FOR:
             words = f"a robot obeys each for {OBEYED_FOR:g} s, and stops in between; --rate 10 drives on"
             print(f"zteleop pub: {words}", file=sys.stderr)
         resume = Resume(publisher.sender) if arguments.resume and publisher.sender else None

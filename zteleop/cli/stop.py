@@ -20,6 +20,8 @@ EXAMPLES = (
     "zteleop stop --release archangel",
 )
 GLANCE = 0.01
+SOON = 0.6
+"""s in which a robot that is there has answered"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -106,16 +108,23 @@ class Stops:
         self.heed()
         for stopping in self._asked.values():
             _listen(node, stopping)
+        asking = threading.Thread(target=self._ask_who_is_meant, args=(node,), daemon=True)
+        if not node.membership.until(self.heed, SOON) and self._told != self._asked.keys():
+            asking.start()  # beside it: who answers late must not keep the stop from being said
         node.membership.until(self.heed, 2 * REPEAT)
         unheard = [stopping for stopping in self._asked.values() if stopping.unheard]
         for stopping in unheard:
             if stopping.state == "done":
                 words = f"{stopping.robot} answered by datagram; on the bus it is not heard"
                 print(printable(words), file=sys.stderr)
-        if any(stopping.state != "done" for stopping in unheard):
-            robots = presence.robots(node.membership.session)  # only now: to find out may take time
-            print(printable(who_is_here(robots, unheard[0].robot)), file=sys.stderr)
         return int(any(stopping.state != "done" for stopping in self._asked.values()))
+
+    def _ask_who_is_meant(self, node: Node) -> None:
+        """Say which robots there are, where one that does not answer is not among them."""
+        robots = presence.robots(node.membership.session)
+        for robot in self._asked.keys() - self._told - set(robots):
+            words = f"{robot} does not answer so far, and is asked on; {who_is_here(robots, robot)}"
+            print(printable(words), file=sys.stderr, flush=True)
 
     def heed(self) -> bool:
         """Go on saying it, tell each answer as it comes, and say whether all is said."""
@@ -156,7 +165,8 @@ def _tell(stopping: Stopping) -> None:
         advice = f"zteleop stop --release {stopping.robot} lets it drive again, from neutral"
         print(printable(f"{stopping.words}; {advice}"), flush=True)
         if sys.stdout.isatty():  # where somebody waits for the prompt
-            print(f"said again for {REPEAT:g} s, to whoever comes late", file=sys.stderr, flush=True)
+            words = f"goes on saying so for {REPEAT:g} s, to whoever comes late; Ctrl-C ends that"
+            print(words, file=sys.stderr, flush=True)
     else:
         print(printable(f"zteleop stop: {stopping.words}"), file=sys.stderr, flush=True)
 

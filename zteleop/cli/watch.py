@@ -59,7 +59,7 @@ class Traffic:
     def cells(self, now: float) -> tuple[str, str, str]:
         """Return rate, bandwidth and the age of the last message, in words."""
         if not self._newest:
-            return "", "", "never"
+            return "", "", "-"
         age = f"{now - self._newest[-1][0]:.1f} s ago"
         while len(self._newest) > 1 and now - self._newest[0][0] > RECENT:
             self._newest.popleft()
@@ -120,5 +120,6 @@ def draw(lines: Iterable[str]) -> None:
         print("\n".join(lines), end="\n\n", flush=True)
         return
     columns, rows = shutil.get_terminal_size()
+    lines = [*lines[: rows - 3], "", "Ctrl-C ends"]
     shown = "\r\n".join(f"{line[: columns - 1]}{REST_OF_LINE}" for line in lines[: rows - 1])
     print(f"{HOME}{shown}{REST_OF_SCREEN}", end="", flush=True)

@@ -63,7 +63,8 @@ def _gate(seen: Snapshot) -> str:
     told = []
     for source, refused in seen.refused.items():
         since, ago = seen.now - refused.since, seen.now - refused.at
-        told.append(f"{source}: {refused.why} ({refused.times} times in {since:.1f} s, last {ago:.1f} s ago)")
+        often = "once" if refused.times == 1 else f"{refused.times} times in {since:.1f} s"
+        told.append(f"{source}: {refused.why} ({often}, last {ago:.1f} s ago)")
     return f"refuses {'; '.join(told)}" if told else "refuses nobody"
 
 

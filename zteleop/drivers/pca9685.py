@@ -61,9 +61,13 @@ class Pca9685:
     """Writes pulses; between writes, and after its process, the chip repeats the last ones for ever."""
 
     def __init__(
-        self, i2c: I2C, settings: Pca9685Settings, sleep: Callable[[float], None] = time.sleep
+        self,
+        i2c: I2C,
+        settings: Pca9685Settings,
+        sleep: Callable[[float], None] = time.sleep,
+        what: str = "",
     ) -> None:
-        self._port = Port(i2c, settings.address)
+        self._port = Port(i2c, settings.address, what)
         self._osc_hz = settings.osc_hz
         self._sleep = sleep
         self._lock: Lock | None = None

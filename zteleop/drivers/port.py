@@ -19,11 +19,11 @@ T = TypeVar("T")
 class Port:
     """The registers at one address of a bus; transfers raise OSError, `in_words` makes it a DeviceError."""
 
-    def __init__(self, i2c: I2C, address: int) -> None:
+    def __init__(self, i2c: I2C, address: int, what: str = "") -> None:
         self._i2c = i2c
         self._address = address
         self._found: str | None = None
-        self.what = f"the PCA9685 at 0x{address:02x} on {i2c.name}"
+        self.what = what or f"the PCA9685 at 0x{address:02x} on {i2c.name}"
         self.close = i2c.close
 
     @contextmanager

@@ -118,7 +118,8 @@ def open_driver(settings: SimulatedSettings, *, exclusive: bool = True) -> Pca96
     board = Pca9685Settings(
         frequency_hz=settings.frequency_hz, osc_hz=settings.osc_hz, arming=settings.arming
     )
-    driver = Pca9685(SimulatedI2C(open_chip(path), path, board.address), board)
+    bus = SimulatedI2C(open_chip(path), path, board.address)
+    driver = Pca9685(bus, board, what=f"the simulated chip {path}")
     if exclusive:
         driver.claim(f"{path}.lock")
     return driver

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from zteleop.errors import ConfigError, nearest
 from zteleop.inputs import Drive
 from zteleop.inputs.levers import Axis
+from zteleop.terminal.keys import is_key, names
 
 Moves = tuple[tuple[Axis, int], ...]
 """Which way a key pushes each axis; 1 is left, or forward."""
@@ -83,6 +84,8 @@ def keymap(name: str) -> dict[str, str]:
 def bindings(keys: Mapping[str, str], name: str = "all") -> dict[str, str]:
     """Return the keys bound here beside those of a map; raises ConfigError for an action there is not."""
     for key, action in keys.items():
+        if key != OTHER and not is_key(key):
+            raise ConfigError(f"no key is called {key!r}; {nearest(key, names())} (zteleop keys shows them)")
         if action.startswith(TOGGLE) and not SWITCH.fullmatch(action.removeprefix(TOGGLE)):
             raise ConfigError(f"key {key!r}: a switch has a name such as lights_2, found {action!r}")
         if action not in DOES and not action.startswith(TOGGLE):

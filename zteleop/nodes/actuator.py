@@ -95,7 +95,7 @@ class Actuator:
             self._node.every(KEEP_EVERY)(self._stop_file.tend)
             if health := self._health:
                 self._node.every(LOOK_EVERY)(lambda: self._drive.movement.cap.bear(health.look(clock.now())))
-            self._node.log.info(f"obeys {self._node.robot}; zteleop keyboard drives it")
+            self._node.log.info(f"{self._node.robot} obeys; zteleop keyboard drives it")
             if held := self._drive.admission.latch.stops:
                 self._node.log.warn(stopped_by(held))
             self._journal.event("start", robot=self._node.robot, epoch=self._drive.admission.gate.epoch)

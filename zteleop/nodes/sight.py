@@ -9,6 +9,11 @@ OWN = ("watchdog", "actuator", "blackbox")
 """The robot's processes; what other operators' programs complain of is theirs to read."""
 NEWS = 10.0
 """s that a line of the log is shown; what it says may be over by then"""
+SILENT = 0.4
+"""s without a word, of twenty a second, after which what was said last may not be so any more"""
+ODOM_LASTS = 1.0
+"""s after which nobody knows where it is"""
+ANEW = "the robot was started anew; whoever drove must begin anew as well"
 
 
 class Sight:
@@ -27,6 +32,7 @@ class Sight:
         self._epoch: int | None = None
         self._at_rest = False
         self._odom: Odometry | None = None
+        self._odom_at = float("-inf")
         self._log = ""
         self._log_at = float("-inf")
 
@@ -38,11 +44,15 @@ class Sight:
         """
         self.news = self._statuses.newest()
         if self.news:
+            if self.news.state == "driving" and self.status and self.status.state != "driving":
+                self._log = ""  # whatever was in the way is so no more
             self.status, self._status_at = self.news, now
         elif now - self._status_at > LINK_LOSS:
             self.status = None
         beat = self._heard.beat
         gone = beat is None or now - self._heard.at > LINK_LOSS
+        if beat and self._epoch not in (None, beat.epoch):
+            self._log, self._log_at = ANEW, now
         before = self._epoch, self._at_rest
         self._epoch = None if beat is None or gone else beat.epoch
         self._at_rest = self.status is not None and self.status.state in HOLDS
@@ -53,10 +63,17 @@ class Sight:
         """What it last said it is."""
         return self._heard.vehicle
 
-    @property
-    def odom(self) -> Odometry | None:
-        """Where it last said it is."""
-        self._odom = self._odoms.newest() or self._odom
+    def silence(self, now: float) -> float:
+        """Return for how long it has said nothing, in s; 0 while that is no matter, or nobody is heard."""
+        silence = now - self._status_at
+        return silence if self.status and silence > SILENT else 0.0
+
+    def odom(self, now: float) -> Odometry | None:
+        """Return where it said that it is; None when nobody says so any more."""
+        if newest := self._odoms.newest():
+            self._odom, self._odom_at = newest, now
+        elif now - self._odom_at > ODOM_LASTS:
+            self._odom = None
         return self._odom
 
     def log(self, now: float) -> str:

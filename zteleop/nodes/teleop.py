@@ -170,7 +170,8 @@ class Teleop:
             status=status,
             ours=ours,
             refused=publisher.refused,
-            odom=self._sight.odom,
+            odom=self._sight.odom(now),
+            silence=round(self._sight.silence(now), 1),
             note=self._news(now),
             alarm=self._stopping.unanswered,
         )

@@ -7,7 +7,7 @@ from zteleop.control.stick import Speeds
 from zteleop.inputs import Drive
 from zteleop.inputs.keymap import KEYMAPS, first_keys
 from zteleop.inputs.levers import Steps
-from zteleop.messages import Channel, Pulse, Vehicle
+from zteleop.messages import Channel, DriveStatus, Pulse, Vehicle
 from zteleop.screen.top_view import Mark
 from zteleop.screen.view import View
 from zteleop.terminal.cells import Span
@@ -44,6 +44,11 @@ class Dashboard(NamedTuple):
     """which, and what each does; shown instead of values and picture where there are any"""
 
     @property
+    def status(self) -> DriveStatus | None:
+        """What the robot does; None when nobody says so, or has not for too long."""
+        return None if self.seen.silence else self.seen.status
+
+    @property
     def asks(self) -> bool:
         """Whether the operator asks for anything but rest."""
         return self.seen.command is not None
@@ -51,13 +56,12 @@ class Dashboard(NamedTuple):
     @property
     def obeyed(self) -> bool:
         """Whether the robot does what this operator asks, as far as its limits allow."""
-        return self.seen.ours and self.seen.status is not None and self.seen.status.state == "driving"
+        return self.seen.ours and self.status is not None and self.status.state == "driving"
 
     @property
     def pulses(self) -> Sequence[Pulse]:
         """What leaves the chip: nothing while its outputs are cut, or nobody tells."""
-        status = self.seen.status
-        return () if status is None or status.confirmed == "cut" else status.pulses
+        return () if self.status is None or self.status.confirmed == "cut" else self.status.pulses
 
 
 class Line(NamedTuple):

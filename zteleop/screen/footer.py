@@ -41,7 +41,7 @@ def hints(d: Dashboard) -> list[tuple[str, str]]:
     wanted = [
         (True, ("stop robot",), STOP),
         (bool(status and status.stops), ("release robot",), "release"),
-        (True, (), "drive"),
+        (bool(directions), (), "drive"),
         (step, ("stop",), "throttle off"),
         (step, ("neutral",), "neutral"),
         (not step, (rest,), "let go"),

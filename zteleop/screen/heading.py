@@ -34,13 +34,14 @@ def bar(spans: list[Span], columns: int) -> list[Span]:
 
 def state(d: Dashboard, unicode: bool) -> list[Span]:
     """Return what the robot does, in a word."""
-    word = d.seen.status.state if d.seen.status else "looking" if d.looking else "no actuator"
+    word: str = d.seen.status.state if d.seen.status else "looking" if d.looking else "no actuator"
+    word = f"no word for {d.seen.silence:.1f} s" if d.seen.silence else word
     return [Span(f"{'●' if unicode else '*'} {word}", COLORS.get(word, "yellow"))]
 
 
 def operator(d: Dashboard, unicode: bool) -> str:
     """Return who operates, by the name that every verb calls it."""
-    if d.seen.status is None:
+    if d.seen.status is None or d.seen.silence:
         return ""
     if not d.seen.status.operator:
         return "nobody operates"
@@ -58,6 +59,9 @@ def reasons(d: Dashboard, unicode: bool) -> list[tuple[str, str]]:
         others = f" ({printable(d.others, unicode)})" if d.others else ""
         start = f"start `zteleop actuator --robot {robot}`"
         return [(f"no actuator heard on robot {robot}{others}; {start}, or, if it moves, cut its power", "")]
+    if d.seen.silence:
+        was = f"{robot} has said nothing for {d.seen.silence:.1f} s; the last was: {status.state}"
+        return [(f"{was}, {printable(status.why, unicode)}", "yellow")]
     # The robot's words are for every reader; here a key does it.
     why = (printable(status.why.replace(RELEASE, "r releases it"), unicode), "")
     if d.asks and d.seen.refused:

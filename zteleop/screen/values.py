@@ -14,7 +14,7 @@ SHORT = 34
 
 def value_lines(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
     """Return the way of a command, from the operator to the ground."""
-    allowed = d.seen.status.applied if d.seen.status else None
+    allowed = d.status.applied if d.status else None
     lines = [
         asked_line(d, columns),
         labelled(5, "allowed", twist_text(allowed, columns), columns),
@@ -48,7 +48,7 @@ def asked_text(d: Dashboard, columns: int) -> str:
 
 def out_text(d: Dashboard, columns: int, unicode: bool) -> str:
     """Return what the chip took last; no pulse where its outputs are cut."""
-    status = d.seen.status
+    status = d.status
     if status is None:
         return "-"
     if status.confirmed == "cut":

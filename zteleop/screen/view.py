@@ -21,6 +21,9 @@ class View(NamedTuple):
     refused: str = ""
     """Why it does not, in the robot's words; empty while it does, or nobody knows"""
     odom: Odometry | None = None
+    """None when nobody says where it is"""
+    silence: float = 0.0
+    """s for which the robot has said nothing, where that is too long: what it said last may be over"""
     note: str = ""
     alarm: bool = False
     """the note says what the operator must know now"""

@@ -46,6 +46,18 @@ class Key(NamedTuple):
     """By which a release is known to be of a press, whatever was held besides at either."""
 
 
+def names() -> list[str]:
+    """Return what keys are called that have no letter of their own."""
+    return sorted({*NAMED.values(), *FINALS.values(), *NUMBERED.values(), *KEYPAD.values()})
+
+
+def is_key(name: str) -> bool:
+    """Say whether a key may be called so: by its letter or its name, after what is held with it."""
+    for _, prefix in MODIFIERS:
+        name = name.removeprefix(prefix)
+    return len(name) == 1 or name in names()
+
+
 class Report(NamedTuple):
     """What a terminal says of itself."""
 

@@ -274,3 +274,12 @@ def test_whoever_publishes_a_misspelt_topic_is_told_and_not_who_writes_all_of_it
     assert told == [
         f"{name}, which no robot hears; did you mean cmd_vel?" for name in ("cmd_vell", "/cmd_vell")
     ]
+
+
+def test_whoever_listens_to_a_misspelt_topic_is_told(node: Node) -> None:
+    lines: list[str] = []
+    node.log.show = lines.append
+    node.on("odmo", Odometry)(print)
+    node.subscription("chatter", String)
+    (line,) = lines
+    assert line.endswith("hears odmo, which no robot says; did you mean odom?")

@@ -55,3 +55,22 @@ def test_a_bad_file_is_1_and_a_sentence(tmp_path: Path, capsys: pytest.CaptureFi
     assert run_verb("check", "check", []) == 1
     words = "config.toml:2:1: drive.servos.steering.channel: expected a whole number from 0 to 15, found 16"
     assert capsys.readouterr() == ("", f"zteleop check: {words}\n")
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ('[keys]\nl = "toggle odom"', "no switch can be called odom: that is a topic of Odometry"),
+        (
+            '[launch]\nx = "actuatr"',
+            "launch.x: no program 'actuatr', and no verb of zteleop; did you mean actuator?",
+        ),
+        ('[keys]\nbackspac = "stop robot"', "no key is called 'backspac'; did you mean backspace"),
+    ],
+)
+def test_it_says_what_the_verbs_that_read_it_would_say(
+    tmp_path: Path, text: str, words: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "config.toml").write_text(text)
+    assert run_verb("check", "check", []) == 1
+    assert words in capsys.readouterr().err

@@ -66,3 +66,14 @@ def test_the_first_key_of_an_action_is_the_one_to_name():
 def test_a_switch_has_the_name_of_a_topic(action):
     with pytest.raises(ConfigError, match="key 'l': a switch has a name such as lights_2"):
         bindings({"l": action})
+
+
+@pytest.mark.parametrize("key", ["backspac", "ctrl-uup", "", "up down"])
+def test_a_key_that_there_is_not_is_refused(key):
+    with pytest.raises(ConfigError, match="no key is called"):
+        bindings({key: "stop robot"})
+
+
+@pytest.mark.parametrize("key", ["f5", "ctrl-up", "alt-super-x", "é", "?", "backspace", OTHER])
+def test_a_key_has_a_letter_or_a_name(key):
+    assert bindings({key: "stop robot"})[key] == "stop robot"

@@ -157,7 +157,7 @@ def test_it_hears_every_source_it_knows_by_name_and_stops(node: FakeNode, clock:
     Robot(node, clock, DriveSettings(sources={"nav": Source(10)}))
     commands = {f"{t}/{s}" for t in ("cmd_vel", "pwm") for s in (*SOURCES, "nav")}
     assert set(node.inboxes) == {*commands, "stop"}
-    assert node.infos[0] == "obeys archangel; zteleop keyboard drives it"
+    assert node.infos[0] == "archangel obeys; zteleop keyboard drives it"
 
 
 def test_the_chip_starts_at_neutral_and_is_left_at_neutral(node: FakeNode, clock: Clock) -> None:

@@ -508,3 +508,37 @@ def test_a_line_of_the_log_is_shown_while_it_is_news(desk: Desk) -> None:
     )
     desk.tick(int(sight.NEWS / PERIOD) + 2)
     assert desk.views[-1].note == ""
+
+
+def test_what_was_said_last_is_doubted_soon_and_where_it_is_is_forgotten(desk: Desk) -> None:
+    desk.hear_state("driving")
+    odom = Odometry.zero()
+    desk.node.inboxes["odom"].waiting.append(odom)
+    desk.tick()
+    assert (desk.views[-1].silence, desk.views[-1].odom) == (0.0, odom)
+    desk.tick(round(sight.SILENT / PERIOD) + 2)
+    assert desk.views[-1].silence == pytest.approx(sight.SILENT + PERIOD, abs=2 * PERIOD)
+    desk.tick(round(sight.ODOM_LASTS / PERIOD))
+    assert desk.views[-1].odom is None
+    desk.hear_state("idle")
+    desk.tick()
+    assert desk.views[-1].silence == 0.0
+
+
+def test_a_robot_that_was_started_anew_is_said_to_be(desk: Desk) -> None:
+    desk.tick()
+    beat = desk.node.membership.heard().beat
+    assert beat
+    desk.node.hear_beat(beat.epoch + 1)
+    desk.tick(beats=False)
+    assert desk.views[-1].note == sight.ANEW
+
+
+def test_what_was_in_the_way_is_said_no_more_once_the_robot_drives(desk: Desk) -> None:
+    desk.hear_state("idle")
+    desk.hear_log("keyboard 7 is refused: too late")
+    desk.tick()
+    assert desk.views[-1].note
+    desk.hear_state("driving")
+    desk.tick()
+    assert desk.views[-1].note == ""

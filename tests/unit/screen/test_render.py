@@ -209,3 +209,16 @@ def test_the_wheels_point_where_the_pulse_says(car, fraction, angle):
         Pulse("steering", 1, fraction, 1500.0, 375),
     ]
     assert steering_angle(page) == pytest.approx(angle)
+
+
+def test_what_was_said_last_is_not_shown_as_what_is_so_once_nobody_says_so(car):
+    page = board(car)
+    seen = page.seen._replace(silence=0.6, status=page.seen.status)
+    page.seen.status.state = "driving"
+    lines = shown(page._replace(seen=seen))
+    assert "no word for 0.6 s" in lines[0]
+    assert "operate" not in lines[0]
+    assert "has said nothing for 0.6 s; the last was: driving" in lines[1]
+    told = {line.split()[0]: line[10:40].strip() for line in lines if line.strip()}
+    assert (told["out"], told["allowed"]) == ("-", "-")
+    assert not any("[375, 370]" in line and "outputting" in line for line in lines)
