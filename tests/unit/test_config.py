@@ -350,3 +350,29 @@ def test_a_keymap_is_looked_up_when_the_file_is_read(text, words):
     with pytest.raises(ConfigError) as error:
         parse(text, "config.toml")
     assert words in str(error.value)
+
+
+def test_what_settings_are_wrong_alone_is_told_beside_what_is_of_the_wrong_type() -> None:
+    text = b"""
+robot = "maker car"
+keymap = "arows"
+drivr = "pca9685"
+journal = 3
+[keys]
+f1 = "stop robt"
+[speeds]
+forward = "fast"
+"""
+    with pytest.raises(ConfigError) as told:
+        parse(text, "c.toml")
+    lines = str(told.value).splitlines()
+    assert [line.split(": ")[1] for line in lines] == [
+        "robot",
+        "keymap",
+        "drivr",
+        "journal",
+        "keys",
+        "speeds.forward",
+    ]
+    assert "no keymap 'arows'; did you mean arrows?" in lines[1]
+    assert "no action 'stop robt'; did you mean" in lines[4]

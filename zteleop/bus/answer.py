@@ -5,12 +5,17 @@ from zteleop.bus.heard import Heard
 from zteleop.bus.log import NodeLog
 from zteleop.control.gate import Refusal
 from zteleop.control.proof import NEVER
+from zteleop.control.settings import SOURCES
 from zteleop.messages import Refusals
 
 UNHEARD = 1.0
 """s without a beat while somebody commands"""
 LASTS = 2.0
 """s that a refusal holds which the robot does not repeat; a slow stream asks seldom"""
+OBEYED_FOR = SOURCES["program"].silence
+"""s after a command in which a robot still obeys a program"""
+PAUSE, TOO_SLOW = 5.0, 3
+"""s that are no stream any more, and how many gaps in a row make a slow one"""
 ANEW = "when whoever watches the robot wants it to move, start this anew (a program may let_go())"
 ADVICE: dict[str, str] = {
     Refusal.EARLIER_START: ANEW,
@@ -40,6 +45,9 @@ class Answer:
         self._told: Refusals | None = heard.refusals
         self._words = ""
         self._at = NEVER
+        self._moved = NEVER
+        self._slow = 0
+        """How often in a row it was moved on too late."""
 
     @property
     def refused(self) -> str:
@@ -58,8 +66,19 @@ class Answer:
     def heed(self, moving: bool) -> None:
         """Take in what the robot has answered; only who wants to move something misses it."""
         self._heard.listen_for_refusals()
+        self._notice_pace(moving)
         self._notice_robot(moving)
         self._notice_refusal(moving)
+
+    def _notice_pace(self, moving: bool) -> None:
+        """Tell whoever moves the robot again and again, but too seldom, that it rests in between."""
+        gap, self._moved = clock.now() - self._moved, clock.now() if moving else NEVER
+        self._slow = self._slow + 1 if OBEYED_FOR < gap < PAUSE else 0
+        if self._slow == TOO_SLOW:
+            self._log.warn(
+                f"{self._topic} is said every {gap:.1f} s, and obeyed for {OBEYED_FOR:g} s each time: "
+                f"robot {self._robot} rests in between; publish 10 times a second or more"
+            )
 
     def _notice_robot(self, moving: bool) -> None:
         # Since it was last listened for: in a long handler nobody does.

@@ -2,9 +2,11 @@
 
 import os
 import select
+import signal
 import threading
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 
 from msgspec import Struct
 
@@ -13,6 +15,8 @@ from zteleop.bus import clock
 Action = Callable[[], object]
 FAR = float("inf")
 LONGEST_WAIT = 60.0
+RING = b"!"
+"""a byte that is no signal's number"""
 
 
 class Timer(Struct):
@@ -97,13 +101,30 @@ class Loop:
 
     def run(self, until: float | None = None) -> None:
         """Run actions until `stop`, or until a time of the bus clock; what is ready is done even then."""
+        with self._woken_by_signals():
+            try:
+                while self._running:
+                    self.run_once(until)
+                    if until is not None and clock.now() >= until:
+                        return
+            finally:
+                self._running = True
+
+    @contextmanager
+    def _woken_by_signals(self) -> Iterator[None]:
+        """Let a signal end the wait for the next thing to do, also one that comes just before it begins.
+
+        Else it is heard at the next timer, which may be a minute away: Ctrl-C in vain. Only Python's main
+        thread handles signals.
+        """
+        if threading.current_thread() is not threading.main_thread():
+            yield
+            return
+        before = signal.set_wakeup_fd(self._bell, warn_on_full_buffer=False)
         try:
-            while self._running:
-                self.run_once(until)
-                if until is not None and clock.now() >= until:
-                    return
+            yield
         finally:
-            self._running = True
+            signal.set_wakeup_fd(before, warn_on_full_buffer=False)
 
     def run_once(self, until: float | None = None) -> None:
         """Wait for the next thing to do, and do what is due."""
@@ -135,8 +156,8 @@ class Loop:
 
     def _ring(self) -> None:
         if self._bell >= 0 and self._rung.acquire(blocking=False):
-            os.write(self._bell, b"!")
+            os.write(self._bell, RING)
 
     def _answer(self) -> None:
-        os.read(self._ear, 1)
-        self._rung.release()
+        if RING in os.read(self._ear, 64):  # besides it the numbers of signals
+            self._rung.release()

@@ -82,15 +82,9 @@ def keymap(name: str) -> dict[str, str]:
 
 
 def bindings(keys: Mapping[str, str], name: str = "all") -> dict[str, str]:
-    """Return the keys bound here beside those of a map; raises ConfigError for an action there is not."""
-    for key, action in keys.items():
-        if key != OTHER and not is_key(key):
-            raise ConfigError(f"no key is called {key!r}; {nearest(key, names())} (zteleop keys shows them)")
-        if action.startswith(TOGGLE) and not SWITCH.fullmatch(action.removeprefix(TOGGLE)):
-            raise ConfigError(f"key {key!r}: a switch has a name such as lights_2, found {action!r}")
-        if action not in DOES and not action.startswith(TOGGLE):
-            known = [*DOES, f"{TOGGLE}NAME"]
-            raise ConfigError(f"key {key!r}: no action {action!r}; {nearest(action, known)}")
+    """Return the keys bound here beside those of a map; raises ConfigError for all that is wrong."""
+    if wrong := [words for key, action in keys.items() if (words := _wrong(key, action))]:
+        raise ConfigError("; ".join(wrong))
     found = {**keymap(name), **keys}
     if found["ctrl-c"] != "quit":
         raise ConfigError(f"key 'ctrl-c' quits, whatever else does; found {found['ctrl-c']!r}")
@@ -99,14 +93,33 @@ def bindings(keys: Mapping[str, str], name: str = "all") -> dict[str, str]:
     return found
 
 
+def _wrong(key: str, action: str) -> str:
+    """Return what is wrong with a key that is bound to an action, if anything."""
+    if key != OTHER and not is_key(key):
+        return f"no key is called {key!r}; {nearest(key, names())} (zteleop keys shows them)"
+    if action.startswith(TOGGLE):
+        is_name = SWITCH.fullmatch(action.removeprefix(TOGGLE))
+        return "" if is_name else f"key {key!r}: a switch has a name such as lights_2, found {action!r}"
+    if action not in DOES:
+        return f"key {key!r}: no action {action!r}; {nearest(action, [*DOES, f'{TOGGLE}NAME'])}"
+    return ""
+
+
 def describe(keys: Mapping[str, str], drive: Drive | None = None) -> list[tuple[str, str]]:
     """Return the keys of each action and what they do, in the order of `DOES`, when they drive so."""
     how = HOW[drive] if drive else ""
     told = []
     for action, does in DOES.items():
         bound = [key if key != OTHER else "any other" for key, act in keys.items() if act == action]
-        if bound and not (drive == "step" and action in SPEEDS):
-            told.append((" ".join(bound), does + (how if action in DIRECTIONS else "")))
+        ways = (
+            how
+            if action in DIRECTIONS
+            else ", with --drive hold"
+            if drive == "step" and action in SPEEDS
+            else ""
+        )
+        if bound:
+            told.append((" ".join(bound), does + ways))
     return told + [(key, f"{act}, on or off") for key, act in keys.items() if act.startswith(TOGGLE)]
 
 

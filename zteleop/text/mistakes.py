@@ -57,14 +57,22 @@ def _choice(
 def _table(
     values: object, cls: Any, kinds: Mapping[Path, Any], path: Path, tag: Mapping[str, object] | None = None
 ) -> Iterator[Mistake]:
-    """Look at every entry of a table, and once each is right by itself at the whole."""
+    """Look at every entry of a table, at what each does alone, and once all are right at the whole."""
     if not isinstance(values, dict):
         yield Mistake(path, f"expected a table, found {_found(values)}")
         return
-    wrong = False
+    wrong: set[str] = set()
     for mistake in _entries(values, cls, kinds, path):
-        wrong = True
+        wrong.update(mistake.path[len(path) : len(path) + 1] or [""])
         yield mistake
+    if any(field.required for field in msgspec.structs.fields(cls)):
+        alone = []
+    else:
+        alone = [(name, _refusal({name: values[name]}, cls)) for name in values if name not in wrong]
+    for name, words in alone:
+        if words:
+            wrong.add(name)
+            yield Mistake((*path, name), words)
     if not wrong:
         yield from _whole({**values, **(tag or {})}, cls, path)
 

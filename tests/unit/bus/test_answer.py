@@ -167,3 +167,28 @@ def test_a_robot_that_is_gone_refuses_nothing(sender: Sender) -> None:
     sender.refuse()
     sender.say()
     assert sum("is refused" in line for line in sender.news) == 2
+
+
+def test_a_program_that_moves_the_robot_too_seldom_is_told_once(sender: Sender) -> None:
+    for _ in range(10):
+        sender.clock.pass_by(0.9)
+        sender.say()
+    (line,) = sender.news
+    assert "cmd_vel is said every 1.0 s, and obeyed for 0.5 s each time" in line
+    assert "publish 10 times a second or more" in line
+
+
+@pytest.mark.parametrize("gap", [0.1, 0.45, 10.0])
+def test_a_stream_and_single_moves_are_no_slow_stream(sender: Sender, gap: float) -> None:
+    for _ in range(10):
+        sender.clock.pass_by(gap - 0.1)
+        sender.say()
+    assert sender.news == []
+
+
+def test_who_lets_go_in_between_rests_on_purpose(sender: Sender) -> None:
+    for _ in range(10):
+        sender.clock.pass_by(0.9)
+        sender.say()
+        sender.say(moving=False)
+    assert sender.news == []

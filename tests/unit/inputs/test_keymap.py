@@ -77,3 +77,10 @@ def test_a_key_that_there_is_not_is_refused(key):
 @pytest.mark.parametrize("key", ["f5", "ctrl-up", "alt-super-x", "é", "?", "backspace", OTHER])
 def test_a_key_has_a_letter_or_a_name(key):
     assert bindings({key: "stop robot"})[key] == "stop robot"
+
+
+def test_all_that_is_wrong_with_keys_is_said_at_once():
+    with pytest.raises(ConfigError) as told:
+        bindings({"f1": "stop robt", "backspac": "stop robot", "l": "toggle L"})
+    for words in ("no action 'stop robt'", "no key is called 'backspac'", "a switch has a name"):
+        assert words in str(told.value)
