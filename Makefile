@@ -68,7 +68,7 @@ clean:
 		{ echo "zteleop needs Python 3.11 or newer; found $$($(PYTHON) -V). Say: make PYTHON=python3.12 demo"; exit 1; }
 	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || \
 		{ echo "Python's venv module is missing; say: sudo apt install python3-venv"; exit 1; }
-	@echo "installing into .venv ..."
+	@echo "installing into .venv, which may take half a minute ..."
 	@test -x $(BIN)/python || $(PYTHON) -m venv .venv
 	@$(BIN)/pip install --quiet --retries 10 --disable-pip-version-check --editable .
 	@touch $@

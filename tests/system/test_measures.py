@@ -172,6 +172,12 @@ def test_pub_says_what_comes_on_its_input_and_tells_of_what_is_no_message(rig: R
     assert result.returncode == 0
 
 
+def test_pub_that_goes_on_says_that_it_waits_no_longer(rig: Rig) -> None:
+    pub = rig.join("pub", "cmdvel", "String", "-r", "10")
+    until(lambda: "publishing #1" in pub.text, "a message")
+    assert "waits no longer, and says it all the same" in ended(pub)
+
+
 def test_a_motion_for_some_time_ends_with_neutral(rig: Rig) -> None:
     pub = rig.join("pub", "cmd_vel", "Twist", "{linear: {x: 0.5}}", "-r", "20", "--for", "1s")
     until(lambda: rig.ticks[1] > NEUTRAL[1], "a robot that drives")

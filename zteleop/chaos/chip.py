@@ -106,7 +106,7 @@ FAULTS = (
     Fault("another program writes to the chip", write_beside, simulated=True),
     Fault("chip's file is removed", remove_file, 0.3, simulated=True),
     Fault(
-        "chip's file is removed, actuator frozen",
+        "chip's file gone, actuator frozen",
         together(remove_file, actuator(signal.SIGSTOP)),
         0.4,
         simulated=True,

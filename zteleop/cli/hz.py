@@ -1,7 +1,7 @@
 import argparse
 from collections.abc import Iterable
 
-from zteleop.cli import _window
+from zteleop.cli import _options, _window
 from zteleop.cli._listening import Arrival, listening
 from zteleop.cli._window import Figures, Window
 
@@ -15,8 +15,6 @@ HEAD = ("topic", "rate", "min_delta", "max_delta", "std_dev", "window")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    from zteleop.cli import _options
-
     _options.add(parser)
     parser.add_argument("topics", metavar="topic", nargs="+", help="such as archangel/odom; several: a table")
     _window.add_argument(parser)

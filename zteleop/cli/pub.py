@@ -80,6 +80,8 @@ def run(arguments: argparse.Namespace) -> None:
         command = topic_of(name.path).command
         wanted = arguments.wait_matching_subscriptions
         heard = _await_robot(node, publisher) if command else _await_hearer(node, publisher, name, wanted)
+        if not heard and times is None:
+            print("zteleop pub: waits no longer, and says it all the same", file=sys.stderr)
         if arguments.stdin:
             _say_what_comes(node, publisher, kind)
             return

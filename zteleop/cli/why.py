@@ -1,4 +1,5 @@
 import argparse
+import sys
 
 from zteleop.bus import presence
 from zteleop.bus.escape import printable
@@ -13,6 +14,8 @@ EXAMPLES = (
     "zteleop why archangel",
 )
 HEARD_WITHIN = 2.0
+TELL_AFTER = 1.0
+"""s of that until it says for whom it waits"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -37,9 +40,12 @@ def answer(node: Node) -> str:
         dog = dogs.newest() or dog
         return bool(status and why and dog)
 
-    node.membership.until(complete, HEARD_WITHIN)
-    if status is None and dog is None:
+    here = ""
+    if not node.membership.until(complete, TELL_AFTER) and status is None and dog is None:
         here = who_is_here(presence.robots(node.membership.session), node.robot or "")
+        print(printable(f"zteleop why: waits for {node.robot}; {here}"), file=sys.stderr, flush=True)
+    node.membership.until(complete, HEARD_WITHIN - TELL_AFTER)
+    if status is None and dog is None:
         raise BusError(f"no actuator of {node.robot} is heard within {HEARD_WITHIN:g} s; is it on? {here}")
     lines = [
         f"{node.robot} is {status.state}: {status.why}" if status else f"{node.robot}: no actuator heard"

@@ -7,7 +7,7 @@ from zteleop.control.calibration import Calibration
 from zteleop.control.deadlines import HEARD_LATE
 from zteleop.control.foreign import Foreigners
 from zteleop.control.gate import Gate, Refusal
-from zteleop.control.hold import PAUSE, Holds
+from zteleop.control.hold import PAUSE, Hold, Holds
 from zteleop.control.mux import Claim, Claims, Mux, Silences
 from zteleop.control.proof import NEVER, Proof
 from zteleop.control.refusals import RefusedSources
@@ -123,7 +123,7 @@ class Admission:
 
     def free(self, reason: str, now: float) -> None:
         """Drop a reason to rest; whoever drives next must leave neutral after now."""
-        if hold := self.holds.drop(reason):
+        if hold := self._drop(reason):
             self.gate.begin_after(now, BEFORE.get(hold.state, Refusal.NOT_FROM_NEUTRAL))
 
     def stop(self, said: Stop, now: float) -> bool:
@@ -132,7 +132,7 @@ class Admission:
         if changed and self.latch.stops:
             self.hold("stop", "stopped", stopped_by(self.latch.stops), now)
         elif changed:  # a release, perhaps of a stop that never arrived
-            self.holds.drop("stop")
+            self._drop("stop")
             self.mux.clear()
             self.gate.begin_after(now, Refusal.BEFORE_RELEASE)
         return changed
@@ -165,6 +165,13 @@ class Admission:
             source = max(recent, key=lambda name: recent[name].at)
             why += f"; {source} is refused: {recent[source].why}"
         return state, why
+
+    def _drop(self, reason: str) -> Hold | None:
+        """Drop a reason to rest; who was refused for it is not refused any more once there is no other."""
+        hold = self.holds.drop(reason)
+        if not self.holds:
+            self.refusals.forget(Refusal.AT_REST)
+        return hold
 
     def _hear(self, source: str, command: Twist | Pwm, proof: Proof | None, now: float) -> Verdict:
         if isinstance(command, Pwm) and not self._settings.mixer.takes_ticks:

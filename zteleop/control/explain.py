@@ -12,6 +12,8 @@ from zteleop.messages import Layer, Pwm, Twist
 
 OLD = 0.1
 """s after which pulses are no longer what the robot means now"""
+REFUSES = 1.0
+"""s after which a refusal is no longer what the gate does"""
 _LEAST = 0.005
 """m/s or rad/s below which two twists are one."""
 
@@ -60,12 +62,13 @@ def _operator(seen: Snapshot) -> str:
 
 
 def _gate(seen: Snapshot) -> str:
-    told = []
+    told: dict[bool, list[str]] = {True: [], False: []}
     for source, refused in seen.refused.items():
         since, ago = seen.now - refused.since, seen.now - refused.at
         often = "once" if refused.times == 1 else f"{refused.times} times in {since:.1f} s"
-        told.append(f"{source}: {refused.why} ({often}, last {ago:.1f} s ago)")
-    return f"refuses {'; '.join(told)}" if told else "refuses nobody"
+        told[ago <= REFUSES].append(f"{source}: {refused.why} ({often}, last {ago:.1f} s ago)")
+    now = f"refuses {'; '.join(told[True]) or 'nobody'}"
+    return f"{now}; lately refused {'; '.join(told[False])}" if told[False] else now
 
 
 def _mux(seen: Snapshot) -> str:

@@ -37,6 +37,10 @@ class RefusedSources:
         since, times = (last.since, last.times) if last and last.why == why else (now, 0)
         self._sources[source] = Refused(why, since, now, times + 1)
 
+    def forget(self, why: Refusal) -> None:
+        """Forget who was refused for a reason that is over."""
+        self._sources = {source: last for source, last in self._sources.items() if last.why != why}
+
     def recent(self, now: float, seconds: float) -> dict[str, Refused]:
         """Return what was said in the last seconds, by source."""
         return {source: last for source, last in self._sources.items() if now - last.at < seconds}

@@ -130,5 +130,4 @@ class Console:
 
     def suspend(self, now: float) -> None:
         """Stop the process as Ctrl-Z asked and return when it goes on, neutral."""
-        self.keyboard.suspend(now)
-        self.pad.reset(now)
+        self.keyboard.suspend(now)  # `read` has let the pad go, and does so until here

@@ -30,7 +30,7 @@ def run(number: int) -> int:
     with Node("actuator", robot, settings.bus) as node:
         # What is refused here, the watchdog was refused as well, and has said so.
         realtime.ask_for(PROGRAM.priority, PROGRAM.oom_score)
-        if settings.driver == "simulated":
+        if settings.driver == "simulated" and standing is None:
             node.log.info("the chip is simulated, and moves no wheel; --driver pca9685 writes to a real one")
         folder = config.state_folder(robot)
         chip = settings.driver_settings(settings.driver, robot)

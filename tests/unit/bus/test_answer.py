@@ -188,7 +188,7 @@ def test_a_stream_and_single_moves_are_no_slow_stream(sender: Sender, gap: float
 
 def test_who_lets_go_in_between_rests_on_purpose(sender: Sender) -> None:
     for _ in range(10):
-        sender.clock.pass_by(0.9)
-        sender.say()
-        sender.say(moving=False)
+        for moving in (True, False):
+            sender.clock.pass_by(0.6)
+            sender.say(moving=moving)
     assert sender.news == []

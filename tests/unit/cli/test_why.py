@@ -66,14 +66,17 @@ def test_a_robot_whose_watchdog_is_not_heard_says_so() -> None:
     assert answer(node(drive_status=STATUS)).splitlines()[-1] == "  watchdog  is not heard"
 
 
-def test_nobody_there_is_an_error_in_words_that_names_who_is(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_nobody_there_is_an_error_in_words_that_names_who_is_and_is_told_sooner(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     silent = node()
     silent.membership.session = None
     monkeypatch.setattr(why.presence, "robots", lambda session: ["zoe"])
     words = r"no actuator of archangel is heard within 2 s; is it on\? heard here: zoe"
     with pytest.raises(BusError, match=words):
         answer(silent)
-    assert silent.patience == why.HEARD_WITHIN
+    assert silent.patience == why.HEARD_WITHIN - why.TELL_AFTER
+    assert capsys.readouterr().err == "zteleop why: waits for archangel; heard here: zoe\n"
 
 
 @pytest.mark.parametrize(

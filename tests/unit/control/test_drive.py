@@ -182,6 +182,16 @@ def test_who_streams_through_a_long_stop_is_told_of_the_stop_and_then_of_its_rel
     assert robot.say(FORWARD) is Refusal.BEFORE_RELEASE
 
 
+@pytest.mark.parametrize("state", ["stopped", "fault", "starting"])
+def test_a_rest_that_is_over_is_no_reason_any_more(state: str) -> None:
+    robot = Robot()
+    rested(robot, state, on=True)
+    robot.now += 0.05
+    assert robot.say(FORWARD) is Refusal.AT_REST
+    rested(robot, state, on=False)
+    assert robot.step().why == "nobody drives"
+
+
 def rested(robot: Robot, state: str, on: bool) -> None:
     """Keep a robot at rest for a reason of this state, or no longer."""
     if state == "stopped":

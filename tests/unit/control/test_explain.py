@@ -151,6 +151,10 @@ def test_refusals_are_told_with_how_often_and_since_when_and_then_forgotten() ->
     gate = says(robot)["gate"]
     assert gate.startswith("refuses web: it carries no proof; ")
     assert gate.endswith(" (3 times in 1.5 s, last 0.5 s ago)")
+    robot.now += 1.0
+    gate = says(robot)["gate"]
+    assert gate.startswith("refuses nobody; lately refused web: it carries no proof; ")
+    assert gate.endswith(" (3 times in 2.5 s, last 1.5 s ago)")
     robot.wait(10.0)
     assert says(robot)["gate"] == "refuses nobody"
 

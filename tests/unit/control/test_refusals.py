@@ -1,5 +1,5 @@
 from zteleop.control.gate import Refusal
-from zteleop.control.refusals import FORGOTTEN_AFTER, SENDERS, TOLD_AFTER, RefusedSenders
+from zteleop.control.refusals import FORGOTTEN_AFTER, SENDERS, TOLD_AFTER, RefusedSenders, RefusedSources
 
 STALE, EARLIER = Refusal.STALE, Refusal.EARLIER_START
 
@@ -93,3 +93,12 @@ def test_a_crowd_that_nobody_looks_at_leaves_room_as_well() -> None:
         senders.note(sender, "program", STALE, 1.0)
     stream(senders, 3.0, 4.0, sender=999)
     assert list(senders.news(4.0) or {}) == [999]
+
+
+def test_whoever_was_refused_for_what_is_over_is_forgotten() -> None:
+    refused = RefusedSources()
+    refused.note("keyboard", Refusal.AT_REST, 1.0)
+    refused.note("program", Refusal.STALE, 1.0)
+    refused.forget(Refusal.AT_REST)
+    assert list(refused.recent(1.5, 10.0)) == ["program"]
+    assert refused.count == 2

@@ -151,6 +151,12 @@ def test_another_layout_is_learned_by_keys_that_are_pressed_alone(desk: Desk) ->
     assert desk.read() == [("a", "release")]
 
 
+def test_what_is_held_with_others_is_no_key_of_its_own_to_learn(desk: Desk) -> None:
+    desk.move((SHIFT, 1), (SHIFT, 0), (Q, 1))
+    desk.type("a")
+    assert desk.read() == [("a", "press")]
+
+
 def test_a_key_with_shift_or_ctrl_is_its_own(desk: Desk) -> None:
     desk.move((SHIFT, 1))
     assert desk.press(W, "W") == [("W", "press")]
