@@ -79,7 +79,7 @@ def test_a_robot_that_is_gone_and_comes_back_is_told_of(rig: Rig) -> None:
     actuator.ends()
     shell.says("robot bench is not heard any more; what is said on cmd_vel moves nothing")
     rig.actuator()
-    shell.says("robot bench is heard; what is said on cmd_vel reaches it")
+    shell.says("robot bench is heard")
 
 
 def test_who_typed_resume_drives_on_after_a_restart_and_not_after_a_stop(rig: Rig) -> None:

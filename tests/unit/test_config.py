@@ -138,7 +138,10 @@ def test_a_file_that_cannot_be_read_is_told(home: Path) -> None:
             "[drive.sources.'a/*']\npriority = 1",
             "1:2: drive: a source is made of a-z, A-Z, 0-9, _ and -; found",
         ),
-        ("[drive\na = 1", "1:7: not TOML: Expected ']' at the end of a table declaration"),
+        (
+            "[drive\na = 1",
+            "1:7: not TOML: Expected ']' at the end of a table declaration; what else is wrong shows once",
+        ),
         ("a = ", " not TOML: "),
         ("a = 1\na = 2", " not TOML: "),
         (b"a = '\xff'", " not TOML: "),

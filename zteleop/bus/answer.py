@@ -14,7 +14,7 @@ LASTS = 2.0
 """s that a refusal holds which the robot does not repeat; a slow stream asks seldom"""
 OBEYED_FOR = SOURCES["program"].silence
 """s after a command in which a robot still obeys a program"""
-PAUSE, TOO_SLOW = 5.0, 3
+PAUSE, TOO_SLOW = 5.0, 2
 """s that are no stream any more, and how many gaps in a row make a slow one"""
 ANEW = "when whoever watches the robot wants it to move, start this anew (a program may let_go())"
 ADVICE: dict[str, str] = {
@@ -87,7 +87,7 @@ class Answer:
             self.miss()
         elif self._unheard and not unheard:
             self._unheard = False
-            self._log.info(f"robot {self._robot} is heard; what is said on {self._topic} reaches it")
+            self._log.info(f"robot {self._robot} is heard")
 
     def _notice_refusal(self, moving: bool) -> None:
         now, told = clock.now(), self._heard.refusals

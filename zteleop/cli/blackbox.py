@@ -2,6 +2,7 @@ import argparse
 import sys
 from collections.abc import Iterator
 from contextlib import suppress
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ from zteleop.bus.escape import printable
 from zteleop.bus.names import robot_name
 from zteleop.errors import ConfigError
 from zteleop.recording import blackbox_file
+from zteleop.recording.amounts import SECOND, span
 from zteleop.recording.blackbox_file import Header, Recorded, Recording
 from zteleop.recording.timeline import Event, timeline
 
@@ -46,6 +48,13 @@ def run(arguments: argparse.Namespace) -> None:
         print(words, file=sys.stderr if arguments.json else sys.stdout)
     if not what and not arguments.json:
         print(f"({printable(str(path))})")
+        print(f"({_age(recording.header)} old; the next is written 1 to 10 s after what it tells of)")
+
+
+def _age(header: Header) -> str:
+    """Return how long ago it was written: it may tell of another time than the reader thinks."""
+    written = datetime.fromisoformat(header.time).replace(tzinfo=UTC)
+    return span(max((datetime.now(UTC) - written) // timedelta(seconds=1), 0) * SECOND)
 
 
 def _looks_like_a_path(text: str) -> bool:

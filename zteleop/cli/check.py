@@ -46,7 +46,8 @@ def _summary(settings: Config) -> str:
         )
     sources = sorted(settings.drive.known_sources.items(), key=lambda item: -item[1].priority)
     lines.append("sources  " + ", ".join(f"{name} {source.priority}" for name, source in sources))
-    lines += [f"set      {name} = {ours}, built in {theirs}" for name, ours, theirs in _changes(settings)]
+    for name, ours, theirs in _changes(settings):
+        lines.append(f"set      {name} = {ours}" + (f", built in {theirs}" if theirs is not None else ""))
     return "\n".join(lines)
 
 
@@ -58,7 +59,7 @@ def _changes(settings: Config) -> Iterator[tuple[str, object, object]]:
     )
     for name in sorted(ours.keys() | theirs.keys()):
         if ours.get(name) != theirs.get(name):
-            yield name, ours.get(name, "nothing"), theirs.get(name, "nothing")
+            yield name, ours.get(name, "nothing"), theirs.get(name)
 
 
 def _all(settings: Config) -> dict[str, object]:

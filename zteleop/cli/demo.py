@@ -1,5 +1,6 @@
 import argparse
 import secrets
+import shutil
 import socket
 import sys
 import tempfile
@@ -78,13 +79,17 @@ def drive_figure(node: Node) -> int:
 def farewell(trip: "Trip", drive: Drive) -> str:
     """Return what was driven, and three commands that show something new."""
     other, how = OTHER[drive]
+    program = "zteleop" if shutil.which("zteleop") else sys.argv[0]  # as it was typed
     steps = [
-        (f"zteleop demo --drive {other}", how),
-        ("zteleop keyboard --help", "every key"),
-        ("zteleop doctor", "what this machine has for a robot of your own"),
+        (f"{program} demo --drive {other}", how),
+        (f"{program} keyboard --help", "every key"),
+        (f"{program} doctor", "what this machine has for a robot of your own"),
     ]
+    width = max(len(command) for command, _ in steps) + 3
     drove = f"{trip.distance:.1f} m, {trip.fastest:.2f} m/s at most" if trip.distance else "nowhere"
-    return "\n".join([f"drove {drove}", "try next:", *(f"  {command:27}{does}" for command, does in steps)])
+    return "\n".join(
+        [f"drove {drove}", "try next:", *(f"  {command:{width}}{does}" for command, does in steps)]
+    )
 
 
 class Trip:

@@ -164,11 +164,11 @@ def _tell(stopping: Stopping) -> None:
     if stopping.state == "done":
         advice = f"zteleop stop --release {stopping.robot} lets it drive again, from neutral"
         print(printable(f"{stopping.words}; {advice}"), flush=True)
-        if sys.stdout.isatty():  # where somebody waits for the prompt
-            words = f"goes on saying so for {REPEAT:g} s, to whoever comes late; Ctrl-C ends that"
-            print(words, file=sys.stderr, flush=True)
     else:
         print(printable(f"zteleop stop: {stopping.words}"), file=sys.stderr, flush=True)
+    if sys.stderr.isatty():  # where somebody waits for the prompt
+        words = f"goes on saying so until {REPEAT:g} s are over, to whoever comes late; Ctrl-C ends that"
+        print(words, file=sys.stderr, flush=True)
 
 
 def _robots(node: Node, settings: Config, every: bool) -> list[str]:

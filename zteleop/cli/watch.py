@@ -59,7 +59,7 @@ class Traffic:
     def cells(self, now: float) -> tuple[str, str, str]:
         """Return rate, bandwidth and the age of the last message, in words."""
         if not self._newest:
-            return "", "", "-"
+            return "", "", "nothing yet"
         age = f"{now - self._newest[-1][0]:.1f} s ago"
         while len(self._newest) > 1 and now - self._newest[0][0] > RECENT:
             self._newest.popleft()

@@ -1,4 +1,5 @@
 import argparse
+import sys
 
 from zteleop.bus import clock
 from zteleop.bus.escape import printable
@@ -47,4 +48,6 @@ def run(arguments: argparse.Namespace) -> None:
                 )
 
         node.subscription("watchdog", WatchdogStatus, show)
+        if sys.stderr.isatty() and not arguments.once:
+            print("Ctrl-C ends this, and nothing of the robot", file=sys.stderr)
         node.spin()

@@ -61,4 +61,4 @@ def state_of(dog: WatchdogStatus) -> str:
     permits = "somebody may drive" if dog.allowed else "nobody may drive"
     steps = f"{dog.why}, last {dog.silence * 1000:.0f} ms ago" if dog.state == "watching" else dog.why
     restarts = f"; {dog.restarts} restart{'s'[: dog.restarts - 1]}" if dog.restarts else ""
-    return f"{dog.state}: {steps}; sees {sees}, and by what it heard {permits}{restarts}"
+    return f"{dog.state}: {steps}; sees {sees}, and as far as it hears, {permits}{restarts}"

@@ -148,7 +148,7 @@ class Admission:
         """Judge a command that arrived."""
         verdict = self._hear(source, command, proof, now)
         if verdict.refusal:
-            self.refusals.note(source, verdict.refusal, now)
+            self.refusals.note(source, proof.sender if proof else 0, verdict.refusal, now)
         return verdict
 
     def select(self, now: float) -> Claim | None:

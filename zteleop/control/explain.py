@@ -66,7 +66,8 @@ def _gate(seen: Snapshot) -> str:
     for source, refused in seen.refused.items():
         since, ago = seen.now - refused.since, seen.now - refused.at
         often = "once" if refused.times == 1 else f"{refused.times} times in {since:.1f} s"
-        told[ago <= REFUSES].append(f"{source}: {refused.why} ({often}, last {ago:.1f} s ago)")
+        who = called(source, f"{refused.sender:x}") if refused.sender else source
+        told[ago <= REFUSES].append(f"{who}: {refused.why} ({often}, last {ago:.1f} s ago)")
     now = f"refuses {'; '.join(told[True]) or 'nobody'}"
     return f"{now}; lately refused {'; '.join(told[False])}" if told[False] else now
 
@@ -75,7 +76,7 @@ def _mux(seen: Snapshot) -> str:
     claim = seen.step.claim
     waiting = [_sender(other) for other in seen.claims if other is not claim]
     priority = seen.settings.known_sources[claim.source].priority if claim else 0
-    chosen = f"{claim.source} drives with priority {priority}" if claim else "no claim counts"
+    chosen = f"{claim.source} drives with priority {priority}" if claim else "nobody drives"
     return f"{chosen}; {', '.join(waiting)} {'waits' if len(waiting) == 1 else 'wait'}" if waiting else chosen
 
 
@@ -139,7 +140,7 @@ def _top(source: str, bound: Bound) -> str:
     """Return what bounds the speed: the vehicle itself, the settings of its source, or the cap."""
     speed = f"{_metres(bound.speed)} m/s"
     return {"vehicle": f"it does {speed} at most", "source": f"{source} may drive {speed} here"}.get(
-        bound.by, f"the cap is {speed}"
+        bound.by, f"it may do {speed} now"
     )
 
 

@@ -14,8 +14,10 @@ SENDERS = 64
 
 
 class Refused(NamedTuple):
-    """What the gate last said to a source."""
+    """What the gate last said to a source, and to whom."""
 
+    sender: int
+    """0 where it did not say who it is"""
     why: Refusal
     since: float
     at: float
@@ -30,12 +32,13 @@ class RefusedSources:
         """of all refusals so far"""
         self._sources: dict[str, Refused] = {}
 
-    def note(self, source: str, why: Refusal, now: float) -> None:
+    def note(self, source: str, sender: int, why: Refusal, now: float) -> None:
         """Remember a refusal; those in a row for one reason are one."""
         self.count += 1
         last = self._sources.get(source)
-        since, times = (last.since, last.times) if last and last.why == why else (now, 0)
-        self._sources[source] = Refused(why, since, now, times + 1)
+        same = last is not None and (last.sender, last.why) == (sender, why)
+        since, times = (last.since, last.times) if last and same else (now, 0)
+        self._sources[source] = Refused(sender, why, since, now, times + 1)
 
     def forget(self, why: Refusal) -> None:
         """Forget who was refused for a reason that is over."""

@@ -76,6 +76,11 @@ class Sight:
             self._odom = None
         return self._odom
 
+    @property
+    def odom_lost(self) -> bool:
+        """Whether it said where it is, and does so no more."""
+        return self._odom is None and self._odom_at > float("-inf")
+
     def log(self, now: float) -> str:
         """Return its latest warning, while it is news; all else the status says better."""
         for said in self._logs.take():

@@ -171,6 +171,7 @@ class Teleop:
             ours=ours,
             refused=publisher.refused,
             odom=self._sight.odom(now),
+            odom_lost=self._sight.odom_lost,
             silence=round(self._sight.silence(now), 1),
             note=self._news(now),
             alarm=self._stopping.unanswered,

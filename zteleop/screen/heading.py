@@ -65,10 +65,16 @@ def reasons(d: Dashboard, unicode: bool) -> list[tuple[str, str]]:
     # The robot's words are for every reader; here a key does it.
     why = (printable(status.why.replace(RELEASE, "r releases it"), unicode), "")
     if d.asks and d.seen.refused:
-        words = d.seen.refused.removesuffix(f" ({status.why})")
+        words = in_keys(d, d.seen.refused.removesuffix(f" ({status.why})"))
         refused = (f"you are not obeyed: {printable(words, unicode)}", "yellow")
         return [why, refused] if status.state in HOLDS else [refused]
     return [why, *dead_zone(d)]
+
+
+def in_keys(d: Dashboard, words: str) -> str:
+    """Return the robot's words with the key that lets go: in steps nothing is held."""
+    key = d.bound.get("neutral") if d.drive == "step" else None
+    return words.replace("let go", f"press {key} for neutral") if key else words
 
 
 def dead_zone(d: Dashboard) -> list[tuple[str, str]]:

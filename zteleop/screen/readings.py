@@ -66,6 +66,8 @@ def brief(d: Dashboard, unicode: bool) -> list[Span]:
 
 def idle(d: Dashboard, columns: int) -> Line:
     """Return how long the robot goes on without a key."""
+    if d.status is None:
+        return labelled(7, "idle", "nobody hears what is asked", columns, "dim")
     if d.idle_left is None:
         return labelled(7, "idle", "at rest", columns, "dim")
     words = f"neutral in {d.idle_left:.1f} s" if columns >= 28 else f"{d.idle_left:.1f} s left"

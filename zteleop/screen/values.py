@@ -22,6 +22,8 @@ def value_lines(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
     ]
     if d.seen.odom is not None:
         lines.append(labelled(7, "moving", twist_text(d.seen.odom.twist.twist, columns), columns))
+    if d.seen.odom_lost:
+        lines.append(labelled(7, "moving", "its place is not told any more", columns, "yellow"))
     if found := pose(d.seen.odom):
         x, y, heading = found
         degree = "°" if unicode else " deg"

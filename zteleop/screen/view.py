@@ -22,6 +22,8 @@ class View(NamedTuple):
     """Why it does not, in the robot's words; empty while it does, or nobody knows"""
     odom: Odometry | None = None
     """None when nobody says where it is"""
+    odom_lost: bool = False
+    """somebody said where it is, and does so no more"""
     silence: float = 0.0
     """s for which the robot has said nothing, where that is too long: what it said last may be over"""
     note: str = ""

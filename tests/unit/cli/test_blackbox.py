@@ -1,12 +1,15 @@
 import json
 import os
+from datetime import UTC, datetime
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
 from zteleop.bus import codec
 from zteleop.bus.tap import Raw
+from zteleop.cli import blackbox as verb
 from zteleop.cli import main
 from zteleop.messages import DriveStatus, String
 from zteleop.recording.blackbox_file import Header, Reason, utc, write
@@ -60,15 +63,22 @@ def fails(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
     return words
 
 
-def test_the_newest_is_told_as_a_timeline(home: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_newest_is_told_as_a_timeline(
+    home: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     keep(home, second=0, said=[])
     path = keep(home, second=60)
+    now = datetime.fromtimestamp(1_700_000_060 + 2 * 3600 + 3 * 60 + 5, UTC)
+    monkeypatch.setattr(
+        verb, "datetime", SimpleNamespace(now=lambda zone: now, fromisoformat=datetime.fromisoformat)
+    )
     assert show(capsys) == [
         "black box of archangel: link lost, 2023-11-14 22:14:20 UTC, 60 s of 14 topics",
         "    -8.00 s  driving: keyboard drives",
         f"     0.00 s  link lost: {WHY}   <- written because of this",
         "    +1.00 s  idle: nobody\\u001b[31m\\u000ax",
         f"({path})",
+        "(2 h 3 min 5 s old; the next is written 1 to 10 s after what it tells of)",
     ]
 
 
@@ -95,7 +105,7 @@ def test_a_folder_named_like_a_robot_is_not_meant(home: Path, capsys: pytest.Cap
 def test_every_message_can_be_a_line(home: Path, capsys: pytest.CaptureFixture[str]) -> None:
     keep(home)
     lines = show(capsys, "--all")
-    assert len(lines) == 1 + len(SAID) + 1
+    assert len(lines) == 1 + len(SAID) + 2
     assert lines[2] == (
         "    -1.00 s  robot/archangel/chatter  application/json;std_msgs/msg/String"
         '  {"data":"hello\\u001b[2J\\u202e"}'

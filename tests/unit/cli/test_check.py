@@ -45,7 +45,7 @@ def test_what_is_not_built_in_is_told(tmp_path: Path, capsys: pytest.CaptureFixt
     )
     assert run_verb("check", "check", []) == 0
     assert [line for line in capsys.readouterr().out.splitlines() if line.startswith("set ")] == [
-        "set      bus.connect[0] = tcp/pi:7447, built in nothing",
+        "set      bus.connect[0] = tcp/pi:7447",
         "set      drivers.pca9685.address = 65, built in 64",
     ]
 

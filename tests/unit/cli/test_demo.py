@@ -23,12 +23,18 @@ def test_the_way_is_measured_from_the_first_place(clock: Clock) -> None:
 
 
 @pytest.mark.parametrize(("drive", "other"), [("step", "hold"), ("hold", "step")])
-def test_the_end_offers_the_other_drive(clock: Clock, drive: str, other: str) -> None:
+def test_the_end_offers_the_other_drive(
+    clock: Clock, drive: str, other: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("shutil.which", lambda name: name)
     trip = Trip()
     assert farewell(trip, drive).startswith("drove nowhere\ntry next:\n")
     assert f"  zteleop demo --drive {other} " in farewell(trip, drive)
     for x in (0.0, 2.0):
         trip(view(clock, x, speed=0.25))
+    monkeypatch.setattr("shutil.which", lambda name: None)
+    monkeypatch.setattr("sys.argv", [".venv/bin/zteleop"])
+    assert f"  .venv/bin/zteleop demo --drive {other} " in farewell(trip, drive)
     assert farewell(trip, drive).startswith("drove 2.0 m, 0.25 m/s at most\n")
 
 

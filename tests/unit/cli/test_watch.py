@@ -39,10 +39,10 @@ def test_a_table_says_what_is_said_how_often_and_how_long_ago() -> None:
     arrive(ears, "abe/odom", *(10.0 + 0.1 * number for number in range(11)))
     arrive(ears, "abe/log", 2.0)
     assert watched.lines(11.5) == [
-        "topic         rate     bandwidth  last       said by     type",
-        "/abe/cmd_vel                      -          nose        std_msgs/msg/String",
-        "/abe/log                          9.5 s ago  nose        std_msgs/msg/String",
-        "/abe/odom     10.0 Hz  5.0 kB/s   0.5 s ago  nose, twin  std_msgs/msg/String",
+        "topic         rate     bandwidth  last         said by     type",
+        "/abe/cmd_vel                      nothing yet  nose        std_msgs/msg/String",
+        "/abe/log                          9.5 s ago    nose        std_msgs/msg/String",
+        "/abe/odom     10.0 Hz  5.0 kB/s   0.5 s ago    nose, twin  std_msgs/msg/String",
     ]
 
 

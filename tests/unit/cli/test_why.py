@@ -52,7 +52,7 @@ def test_a_line_for_the_robot_and_one_for_each_layer() -> None:
         "  operator  keyboard 00ff operates",
         "  limiter   passes it on as asked",
         "  watchdog  watching: the actuator steps, last 12 ms ago; sees pulses of rest, "
-        "and by what it heard nobody may drive",
+        "and as far as it hears, nobody may drive",
     ]
 
 
@@ -82,8 +82,8 @@ def test_nobody_there_is_an_error_in_words_that_names_who_is_and_is_told_sooner(
 @pytest.mark.parametrize(
     ("status", "words"),
     [
-        (dog(moving=True, allowed=True), "sees pulses that move, and by what it heard somebody may drive"),
-        (dog(moving=True), "sees pulses that move, and by what it heard nobody may drive"),
+        (dog(moving=True, allowed=True), "sees pulses that move, and as far as it hears, somebody may drive"),
+        (dog(moving=True), "sees pulses that move, and as far as it hears, nobody may drive"),
         (dog(restarts=3), "nobody may drive; 3 restarts"),
         (dog(restarts=1), "nobody may drive; 1 restart"),
         (dog(state="starting", why="the actuator starts"), "starting: the actuator starts; sees"),

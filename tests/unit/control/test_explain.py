@@ -30,7 +30,7 @@ def test_at_rest_every_layer_says_so_from_the_operator_to_the_wheels() -> None:
     assert list(says(Robot()).items()) == [
         ("operator", "nobody operates"),
         ("gate", "refuses nobody"),
-        ("mux", "no claim counts"),
+        ("mux", "nobody drives"),
         ("rest", "idle: nobody drives"),
         ("cap", "3 m/s: nobody drives"),
         ("limiter", "nothing to limit"),
@@ -94,7 +94,7 @@ def test_a_late_link_is_told_with_the_speed_it_leaves() -> None:
     said = says(robot)
     words = "commands of keyboard are up to 240 ms old, and it must stop as soon as on a good link"
     assert said["cap"] == f"2.5 of 3 m/s: {words}"
-    assert said["limiter"] == "makes it +2.50 m/s +0.00 rad/s: the cap is 2.5 m/s"
+    assert said["limiter"] == "makes it +2.50 m/s +0.00 rad/s: it may do 2.5 m/s now"
 
 
 def test_a_stopping_distance_is_named() -> None:
@@ -111,7 +111,7 @@ def test_a_strain_is_told_even_at_rest() -> None:
     assert says(robot)["cap"] == "1.5 of 3 m/s: the Pi is hot"
     robot.hold(Twist.planar(3.0), 2.0)
     assert says(robot)["cap"] == "1.5 of 3 m/s: the Pi is hot"
-    assert says(robot)["limiter"].endswith(": the cap is 1.5 m/s")
+    assert says(robot)["limiter"].endswith(": it may do 1.5 m/s now")
 
 
 def test_a_sender_without_proof_is_told_as_one() -> None:
@@ -157,6 +157,13 @@ def test_refusals_are_told_with_how_often_and_since_when_and_then_forgotten() ->
     assert gate.endswith(" (3 times in 2.5 s, last 1.5 s ago)")
     robot.wait(10.0)
     assert says(robot)["gate"] == "refuses nobody"
+
+
+def test_who_is_refused_is_called_as_everywhere_else() -> None:
+    robot = Robot()
+    robot.drive.admission.hold("chip", "fault", "the chip is silent", robot.now)
+    robot.say(FORWARD)
+    assert says(robot)["gate"].startswith("refuses keyboard 0001: the robot is kept at rest")
 
 
 def test_a_reason_to_rest_is_told_with_its_age() -> None:

@@ -95,10 +95,17 @@ def test_a_crowd_that_nobody_looks_at_leaves_room_as_well() -> None:
     assert list(senders.news(4.0) or {}) == [999]
 
 
+def test_refusals_in_a_row_are_one_while_sender_and_reason_are_the_same() -> None:
+    refused = RefusedSources()
+    for at, sender in ((1.0, 7), (1.1, 7), (1.2, 8), (1.3, 8), (1.4, 8)):
+        refused.note("program", sender, Refusal.STALE, at)
+    assert refused.recent(1.5, 10.0) == {"program": (8, Refusal.STALE, 1.2, 1.4, 3)}
+
+
 def test_whoever_was_refused_for_what_is_over_is_forgotten() -> None:
     refused = RefusedSources()
-    refused.note("keyboard", Refusal.AT_REST, 1.0)
-    refused.note("program", Refusal.STALE, 1.0)
+    refused.note("keyboard", 7, Refusal.AT_REST, 1.0)
+    refused.note("program", 8, Refusal.STALE, 1.0)
     refused.forget(Refusal.AT_REST)
     assert list(refused.recent(1.5, 10.0)) == ["program"]
     assert refused.count == 2

@@ -515,11 +515,12 @@ def test_what_was_said_last_is_doubted_soon_and_where_it_is_is_forgotten(desk: D
     odom = Odometry.zero()
     desk.node.inboxes["odom"].waiting.append(odom)
     desk.tick()
-    assert (desk.views[-1].silence, desk.views[-1].odom) == (0.0, odom)
+    seen = desk.views[-1]
+    assert (seen.silence, seen.odom, seen.odom_lost) == (0.0, odom, False)
     desk.tick(10)
     assert desk.views[-1].silence == 0.5
     desk.tick(round(sight.ODOM_LASTS / PERIOD))
-    assert desk.views[-1].odom is None
+    assert (desk.views[-1].odom, desk.views[-1].odom_lost) == (None, True)
     desk.hear_state("idle")
     desk.tick()
     assert desk.views[-1].silence == 0.0

@@ -2,7 +2,7 @@ import pytest
 from unit.screen.boards import dashboard, pulses, status, texts
 
 from zteleop.control.stop import stopped_by
-from zteleop.messages import Pwm, Stop
+from zteleop.messages import Pwm, Stop, Twist
 from zteleop.screen.heading import heading
 from zteleop.screen.readings import readings
 
@@ -64,10 +64,18 @@ HELD = "another sender drives this source, or did when this one began; let go, a
 
 @pytest.mark.parametrize("columns", [80, 40, 62])
 def test_who_is_refused_is_told_the_whole_reason(car, columns):
-    board = dashboard("step", car, command=Pwm(405, 370), status=status(), refused=HELD)
+    board = dashboard("hold", car, command=Twist.planar(0.2), status=status(), refused=HELD)
     lines = heading(board, columns, True)
     assert f"you are not obeyed: {HELD}" in " ".join(texts(lines))
     assert {line.spans[0].style for line in lines if "obeyed" in texts([line])[0]} == {"yellow"}
+
+
+def test_in_steps_where_nothing_is_held_the_key_is_named_that_lets_go(car):
+    board = dashboard("step", car, command=Pwm(405, 370), status=status(), refused=HELD)
+    told = " ".join(texts(heading(board, 80, True)))
+    assert "when this one began; press x for neutral, and begin anew" in told
+    told = " ".join(texts(heading(board._replace(bound={}), 80, True)))
+    assert "let go, and begin anew" in told
 
 
 def test_nobody_is_told_of_a_refusal_who_asks_for_nothing(car):

@@ -13,8 +13,20 @@ def test_a_car_steers_by_curvature_so_turning_speed_is_not_shown(car):
 
 def test_the_countdown_turns_yellow(car):
     for left, style in ((3.2, ""), (1.9, "yellow")):
-        lines = readings(dashboard("step", car, idle_left=left), 80, True)
+        lines = readings(dashboard("step", car, idle_left=left, status=status()), 80, True)
         assert [li.spans[1].style for li in lines if f"neutral in {left} s" in text(li.spans)] == [style]
+
+
+def test_nothing_counts_down_where_no_robot_is_heard(car):
+    shown = texts(readings(dashboard("step", car, idle_left=3.2), 80, True))
+    assert "idle      nobody hears what is asked" in shown
+    assert not any("neutral in" in line for line in shown)
+
+
+def test_a_place_that_is_told_no_more_is_said_to_be(car):
+    for lost in (True, False):
+        shown = texts(readings(dashboard("step", car, status=status(), odom_lost=lost), 80, True))
+        assert any("its place is not told any more" in line for line in shown) == lost
 
 
 def test_on_a_single_line_what_is_asked_shows_only_while_nobody_obeys(car):
