@@ -119,5 +119,5 @@ def share(fraction: float, cells: int) -> int:
     """Return a fraction in cells, away from zero: the first step shows, and nothing passes the end."""
     if not isfinite(fraction):
         return 0
-    filled = min(cells, ceil(abs(fraction) * cells - 1e-9))
+    filled = ceil(min(abs(fraction), 1.0) * cells - 1e-9)
     return filled if fraction > 0 else -filled

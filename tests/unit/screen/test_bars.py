@@ -3,7 +3,7 @@ from unit.screen.boards import dashboard, pulses, status, text, texts
 
 from zteleop.control.stick import Stick
 from zteleop.messages import Pwm, Twist
-from zteleop.screen.bars import Reach, bar_lines, bar_spans
+from zteleop.screen.bars import Reach, bar_lines, bar_spans, share
 
 
 def bar(asked: int, out: int, cells: int = 6, axis: str = "steering", unicode: bool = False) -> str:
@@ -113,3 +113,10 @@ def test_while_another_drives_the_words_are_of_what_is_put_out(car, tank):
     said = status(applied=Twist.planar(-0.1, 0.5))
     shown = texts(bar_lines(dashboard("hold", tank, status=said), 80, False))
     assert [line.rpartition("]  ")[2] for line in shown] == ["left", "reverse"]
+
+
+@pytest.mark.parametrize(
+    ("fraction", "filled"), [(0.1, 1), (-0.1, -1), (1.0, 8), (3.0, 8), (-1e308, -8), (float("inf"), 0)]
+)
+def test_no_fraction_passes_the_end_however_large(fraction, filled):
+    assert share(fraction, 8) == filled
