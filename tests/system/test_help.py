@@ -18,6 +18,7 @@ EXAMPLES = [(verb, text) for verb in VERBS for text in import_module(f"zteleop.c
 TYPED = re.findall(r"\| `zteleop ([^`]+)` \|", (DOCS / "shell.md").read_text())
 """what the table for those who know ROS says in its last column"""
 EXAMPLES += [(find_verb(shlex.split(text))[0], f"zteleop {text}") for text in TYPED]
+OF_ACTUATOR = "/archangel/actuator:\n  ros__parameters:\n    limits.speed: 0.5\n"
 ON_A_SCREEN = {"demo": "quit", "keyboard": "quit", "gamepad": "quit", "keys": "Ctrl-C ends"}
 ALONE = {"actuator", "chaos", "check", "demo", "keys", "neutral", "schema", "up"}
 ALONE |= {f"interface {word}" for word in GROUPS["interface"]} | {"completion"}
@@ -67,11 +68,14 @@ def odometry(rig: Rig, text: str) -> Iterator[None]:
 def test_an_example_works(rig: Rig, nobody: Rig, verb: str, text: str) -> None:
     name, *words = shlex.split(text)
     assert (name, find_verb(words)[0]) == ("zteleop", verb)
+    words = words[: words.index(">")] if ">" in words else words
     if verb == "blackbox":  # the stop that comes before has left one behind
         until(lambda: rig.result("blackbox", "--list").stdout, "a black box's file")
     elif verb not in ALONE:
         words += ["--no-multicast-scouting", "--connect", rig.endpoint]
     place = nobody if verb in ALONE else rig
+    if verb == "param load":
+        (place.folder / words[3]).write_text("/**:\n  ros__parameters:\n    log_level: info\n" + OF_ACTUATOR)
     if verb in ON_A_SCREEN:
         terminal = place.terminal(*words)
         terminal.shows(ON_A_SCREEN[verb])

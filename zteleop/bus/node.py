@@ -1,25 +1,31 @@
 """A node: a name on the bus, with publishers, subscriptions and timers, single-threaded for its user."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, Self, TypeVar
 
 from zteleop.bus import presence
 from zteleop.bus.answer import Answer
-from zteleop.bus.log import NodeLog
+from zteleop.bus.log import LEVELS, NodeLog
 from zteleop.bus.membership import Membership
 from zteleop.bus.names import Name, chunk, known_as, resolve, robot_name
+from zteleop.bus.parameters import Bounds, Declared, Parameters
 from zteleop.bus.publisher import Publisher
+from zteleop.bus.service import ANSWERED_WITHIN, Services, call
 from zteleop.bus.session import Session, open_session
 from zteleop.bus.settings import BusSettings
 from zteleop.bus.subscription import Received, Subscription
 from zteleop.bus.topics import topic_of
 from zteleop.control.proof import Prover
 from zteleop.errors import ConfigError
+from zteleop.interfaces.parameters import Value
 from zteleop.machine import signals, stderr
 from zteleop.machine.ids import new_id
 from zteleop.messages import Log, Message
 
 M = TypeVar("M", bound=Message)
+Q = TypeVar("Q", bound=Message)
+R = TypeVar("R", bound=Message)
+V = TypeVar("V", bound=Value)
 Types = type[M] | tuple[type[M], ...]
 
 
@@ -41,11 +47,14 @@ class Node:
         try:
             # the insides, for whoever needs the session, the loop, or what is heard of robots
             self.membership = Membership(self.name, self.robot, session, self._complain)
+            self._services = Services(session, self.name, self.membership.loop, self._complain)
             self.log = NodeLog(self.name, self._say, stderr.tell)
             self._log_publisher: Publisher[Log] | None = None
+            self._parameters = Parameters(self.log.info)
             if self.robot:
                 session.declare_token(presence.node_key(self.robot, self.name))
                 self._log_publisher = self.publisher("log", Log)
+                self._serve_parameters(self.robot)
         except BaseException:
             session.close()
             raise
@@ -154,6 +163,58 @@ class Node:
             return function
 
         return decorate
+
+    def service(self, name: str, request: type[Q], response: type[R], handler: Callable[[Q], R]) -> None:
+        """Answer what others ask under a name, in `spin`; a handler that raises is told to whoever asked.
+
+        Raises ConfigError for types that are not of one service.
+        """
+        self._services.add(resolve(name, self.robot), request, response, handler)
+
+    def call(self, name: str, request: Message, response: type[R], seconds: float = ANSWERED_WITHIN) -> R:
+        """Ask a service, and wait for its answer: not in a handler that drives.
+
+        Raises BusError when nobody answers within some seconds, or it is refused.
+        """
+        return call(self.membership.session, resolve(name, self.robot), request, response, seconds)
+
+    def parameter(
+        self,
+        name: str,
+        value: V,
+        description: str = "",
+        *,
+        least: float | None = None,
+        most: float | None = None,
+        choices: Sequence[str] = (),
+        changed: Callable[[V], object] | None = None,
+    ) -> Declared[V]:
+        """Return a parameter, whose `value` others change while the node spins, within these bounds.
+
+        `changed` hears of another value before it counts, and refuses it by raising a ZteleopError.
+        Raises ConfigError when the name is none or is taken, or the value is out of bounds.
+        """
+        bounds = Bounds(least, most, choices)
+        return self._parameters.declare(name, value, description, bounds, changed)
+
+    def _serve_parameters(self, robot: str) -> None:
+        """Let others see and change this node's parameters; each has one at least."""
+        self.parameter(
+            "log_level",
+            "info",
+            "what is worth telling, on the bus and on stderr",
+            choices=tuple(LEVELS),
+            changed=self.log.tell_from,
+        )
+
+        def serve(
+            name: str, request: type[Message], response: type[Message], handler: Callable[[Any], Message]
+        ) -> None:
+            name_of = Name(robot, f"{self.name}/{name}")
+            self._services.add(name_of, request, response, handler, stands=False)
+
+        self._parameters.serve(serve)
+        self.membership.session.declare_token(presence.parameters_key(robot, self.name))
 
     def every(self, period: float) -> Callable[[Callable[[], object]], Callable[[], object]]:
         """Decorate a function to run every `period` seconds in `spin`."""

@@ -4,6 +4,9 @@
     robot/<robot>/live/sender/<sender>                            of commands, in hexadecimal
     robot/<robot>/live/pub/<node>/<process>/<type>/<topic...>    and sub likewise
 
+    robot/<robot>/live/param/<node>/<process>                     what has parameters
+    robot/<robot>/live/srv/<node>/<process>/<type>/<service...>
+
 A type's slashes are dots; a process is its host and number. Zenoh removes a token with its process.
 """
 
@@ -92,15 +95,25 @@ def endpoint_key(name: Name, kind: Kind, node: str, types: Iterable[type[Message
 
 def endpoints(session: Session) -> list[Endpoint]:
     """Return what every robot's nodes publish and hear, as all who are connected tell."""
-    found = set()
-    for kind in ("pub", "sub"):
-        for key in _tokens(session, f"robot/*/live/{kind}/**"):
-            parts = key.split("/", 7)
-            if len(parts) == 8:
-                _, robot, _, _, node, where, ros_type, topic = parts
-                ros_type, topic = ros_type.replace(".", "/"), topic.replace("+", "*")
-                found.add(Endpoint(robot, kind, node, where, ros_type, topic))
-    return sorted(found)
+    return sorted(_endpoints(session, "pub") + _endpoints(session, "sub"))
+
+
+def service_key(name: Name, node: str, ros_type: str) -> str:
+    return f"robot/{name.robot}/live/srv/{node}/{process()}/{ros_type.replace('/', '.')}/{name.path}"
+
+
+def parameters_key(robot: str, node: str) -> str:
+    return f"robot/{robot}/live/param/{node}/{process()}"
+
+
+def with_parameters(session: Session) -> list["Member"]:
+    """Return every robot's nodes that have parameters."""
+    return _members(session, "param")
+
+
+def services(session: Session) -> list[Endpoint]:
+    """Return what every robot's nodes answer."""
+    return _endpoints(session, "srv")
 
 
 class Member(NamedTuple):
@@ -113,8 +126,7 @@ class Member(NamedTuple):
 
 def nodes(session: Session) -> list[Member]:
     """Return every robot's nodes, also those that publish and hear nothing."""
-    parts = (key.split("/") for key in _tokens(session, "robot/*/live/node/*/*"))
-    return sorted(Member(robot, node, where) for _, robot, _, _, node, where in parts)
+    return _members(session, "node")
 
 
 def holders(session: Session, robot: str, node: str) -> list[str]:
@@ -131,6 +143,22 @@ def robots(session: Session) -> list[str]:
     """Return the robots that have an actuator."""
     found = {key.split("/")[1] for key in _tokens(session, "robot/*/live/node/actuator/*")}
     return sorted(filter(is_robot, found))
+
+
+def _members(session: Session, kind: str) -> list[Member]:
+    parts = (key.split("/") for key in _tokens(session, f"robot/*/live/{kind}/*/*"))
+    return sorted(Member(robot, node, where) for _, robot, _, _, node, where in parts)
+
+
+def _endpoints(session: Session, kind: str) -> list[Endpoint]:
+    found = set()
+    for key in _tokens(session, f"robot/*/live/{kind}/**"):
+        parts = key.split("/", 7)
+        if len(parts) == 8:
+            _, robot, _, _, node, where, ros_type, topic = parts
+            ros_type, topic = ros_type.replace(".", "/"), topic.replace("+", "*")
+            found.add(Endpoint(robot, kind, node, where, ros_type, topic))
+    return sorted(found)
 
 
 def _tokens(session: Session, selector: str) -> set[str]:

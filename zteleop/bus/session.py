@@ -18,6 +18,25 @@ class Sample(NamedTuple):
     """False: a delete; of a token, that it is gone"""
 
 
+class Question(NamedTuple):
+    """What somebody asks under a key, and the two ways to answer it, once."""
+
+    payload: bytes
+    encoding: str
+    answer: Callable[[bytes, str], object]
+    """with bytes and their encoding"""
+    refuse: Callable[[str], object]
+    """with a sentence"""
+
+
+class Reply(NamedTuple):
+    """What was answered; the payload of a refusal is its sentence."""
+
+    payload: bytes
+    encoding: str
+    refused: bool
+
+
 class Ring(Protocol):
     """Keeps the newest samples of one key until they are read."""
 
@@ -75,6 +94,12 @@ class Session(Protocol):
 
     def watch_tokens(self, selector: str, depth: int, history: bool = False) -> Ring:
         """Return a ring of the tokens that come and go; with `history`, also of those there are."""
+
+    def serve(self, key: str, take: Callable[[Question], object]) -> None:
+        """Hand over what is asked under a key, in any thread; raises BusError for a key that is none."""
+
+    def ask(self, key: str, payload: bytes, encoding: str, seconds: float) -> Reply | None:
+        """Return the first answer; None when nobody serves it, or nobody answers in time."""
 
     def deliver(self, inbox: Inbox, handler: Callable[[Any], object], loop: Loop) -> Delivery:
         """Hand what arrives to a handler in a loop, one message a round."""

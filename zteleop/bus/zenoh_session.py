@@ -2,18 +2,20 @@
 
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Any, Protocol, Self
 
 import zenoh
 
 from zteleop.bus.loop import Loop
 from zteleop.bus.pump import Pump
-from zteleop.bus.session import Inbox, Sample
+from zteleop.bus.session import Inbox, Question, Reply, Sample
 from zteleop.errors import BusError
 
 _REPLY_WITHIN = 2.0
 """s for everybody to say which tokens there are"""
+_WORDS = "text/plain"
+"""the encoding of a refusal"""
 _MOST = 50_000
 """tokens that are taken in; a stranger may declare any number"""
 
@@ -30,7 +32,7 @@ class ZenohSession:
 
     def __init__(self, zenoh_session: zenoh.Session) -> None:
         self.zenoh = zenoh_session
-        self._tokens: list[Undeclarable] = []
+        self._kept: list[Undeclarable] = []
 
     def subscribe(self, key: str, depth: int) -> "ZenohRing":
         return ZenohRing(self.zenoh.declare_subscriber(key, zenoh.handlers.RingChannel(depth)))
@@ -57,7 +59,7 @@ class ZenohSession:
             )
 
     def declare_token(self, key: str) -> None:
-        self._tokens.append(self.stand(key))
+        self._kept.append(self.stand(key))
 
     def stand(self, key: str) -> Undeclarable:
         """Declare a token for as long as what this returns is kept; raises BusError likewise."""
@@ -91,6 +93,29 @@ class ZenohSession:
     def watch_tokens(self, selector: str, depth: int, history: bool = False) -> "ZenohRing":
         handler: Any = zenoh.handlers.RingChannel(depth)
         return ZenohRing(self.zenoh.liveliness().declare_subscriber(selector, handler, history=history))
+
+    def serve(self, key: str, take: Callable[[Question], object]) -> None:
+        self._kept.append(self.heed(key, take))
+
+    def heed(self, key: str, take: Callable[[Question], object]) -> Undeclarable:
+        """Call `take` in a thread of zenoh's for what is asked; raises BusError for a key that is none."""
+        handler: Any = zenoh.handlers.Callback(lambda query: take(to_question(query)), indirect=False)
+        with _in_words():
+            return self.zenoh.declare_queryable(key, handler, complete=True)
+
+    def ask(self, key: str, payload: bytes, encoding: str, seconds: float) -> Reply | None:
+        replies: list[zenoh.Reply] = []
+        told = threading.Event()
+
+        def take(reply: zenoh.Reply) -> None:
+            replies.append(reply)
+            told.set()
+
+        handler: Any = zenoh.handlers.Callback(take, told.set, indirect=False)
+        with _in_words():
+            self.zenoh.get(key, handler, payload=payload, encoding=zenoh.Encoding(encoding), timeout=seconds)
+        told.wait(seconds + _REPLY_WITHIN)
+        return to_reply(replies[0]) if replies else None
 
     def deliver(self, inbox: Inbox, handler: Callable[[Any], object], loop: Loop) -> Pump:
         return Pump(inbox, handler, loop)
@@ -160,6 +185,32 @@ def _in_words() -> Iterator[None]:
 
 def _direct(passes: Callable[[Sample], None]) -> Any:
     return zenoh.handlers.Callback(lambda sample: passes(to_sample(sample)), indirect=False)
+
+
+def to_question(query: zenoh.Query) -> Question:
+    """Return a query as plain bytes, which is over once it is answered."""
+
+    def answer(payload: bytes, encoding: str) -> None:
+        with query, suppress(zenoh.ZError):  # whoever asked is gone
+            query.reply(query.key_expr, payload, encoding=zenoh.Encoding(encoding))
+
+    def refuse(words: str) -> None:
+        with query, suppress(zenoh.ZError):
+            query.reply_err(words.encode(errors="replace"), encoding=zenoh.Encoding(_WORDS))
+
+    payload = b"" if query.payload is None else bytes(query.payload)
+    return Question(payload, str(query.encoding or ""), answer, refuse)
+
+
+def to_reply(reply: zenoh.Reply) -> Reply | None:
+    """Return an answer as plain bytes; None for the word of somebody's zenoh that nobody answered in time."""
+    if reply.ok:
+        return Reply(bytes(reply.ok.payload), str(reply.ok.encoding), refused=False)
+    if reply.err is None:
+        return None
+    refusal = Reply(bytes(reply.err.payload), str(reply.err.encoding), refused=True)
+    is_zenohs_own = refusal.payload == b"Timeout" and refusal.encoding != _WORDS
+    return None if is_zenohs_own else refusal
 
 
 def to_sample(sample: zenoh.Sample) -> Sample:

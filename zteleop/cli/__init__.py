@@ -25,6 +25,16 @@ VERBS = {
     "node info": "say what a node publishes and hears",
     "graph": "show who says what to whom",
     "log": "show what the nodes of a robot log",
+    "service list": "list what the nodes here answer when they are asked",
+    "service type": "say which type a service has",
+    "service find": "list the services of a type",
+    "service call": "ask a service, and print its answer",
+    "param list": "list the parameters of nodes: what can be changed while they run",
+    "param get": "print a parameter of a node",
+    "param set": "change a parameter of a node",
+    "param describe": "say what a parameter is, and may be",
+    "param dump": "print all parameters of a node, as a file for param load",
+    "param load": "change a node's parameters as a file says",
     "interface list": "list the types of messages",
     "interface show": "say what a type of message is made of",
     "interface proto": "print a message of a type, to be filled in for pub",
@@ -43,6 +53,8 @@ VERBS = {
 GROUPS = {
     "topic": ("list", "echo", "pub", "hz", "bw", "delay", "watch", "info", "type", "find"),
     "node": ("list", "info"),
+    "service": ("list", "type", "find", "call"),
+    "param": ("list", "get", "set", "describe", "dump", "load"),
     "interface": ("list", "show", "proto"),
 }
 """verbs that are typed behind a word, as those who know ros2 do; those of topics also without it"""
@@ -50,9 +62,7 @@ ELSEWHERE = {
     "bag": "a robot keeps its last minute: zteleop blackbox",
     "daemon": "none is needed: each verb asks the bus itself",
     "launch": "zteleop up starts what [launch] of config.toml names",
-    "param": "settings stand in config.toml: zteleop check shows them",
     "run": "a program runs by its own name; zteleop keyboard drives",
-    "service": "robots here have topics only: zteleop list",
 }
 """what people type who come from elsewhere, and what there is instead"""
 

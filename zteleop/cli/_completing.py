@@ -101,6 +101,10 @@ def _values(place: Place, typed: list[str]) -> Iterable[str]:
         return _on_the_bus(typed, lambda graph: [name.removeprefix("/") for name in graph.topics()])
     if place.dest in ("robot", "named"):
         return _on_the_bus(typed, lambda graph: {node.robot for node in graph.nodes})
+    if place.dest == "service":
+        return _on_the_bus(typed, lambda graph: [f"/{one.robot}/{one.topic}" for one in graph.all_services])
+    if place.dest == "parameter":
+        return _parameters(typed)
     if place.dest == "node":
         return _on_the_bus(typed, lambda graph: [f"/{node.robot}/{node.node}" for node in graph.nodes])
     return _types(place.dest)
@@ -112,20 +116,43 @@ def _types(dest: str) -> Iterable[str]:
         from zteleop.messages.service import is_half
 
         return [name for name in MESSAGES if not is_half(name)]
+    if dest == "service_type":
+        from zteleop.messages import SERVICES
+
+        return SERVICES
+    return ()
+
+
+def _parameters(typed: list[str]) -> Iterable[str]:
+    """Return the parameters of the node that stands before."""
+    from zteleop.cli._params import parameters_of
+    from zteleop.errors import ZteleopError
+
+    arguments, words = _known(typed)
+    if words:
+        arguments.node = words[0]
+        with suppress(ZteleopError), parameters_of(arguments) as node:
+            return node.names()
     return ()
 
 
 def _on_the_bus(typed: list[str], pick: Callable[[Any], Iterable[str]]) -> Iterable[str]:
     """Return something of everybody who is there, by what was typed of where the bus is."""
-    from zteleop.cli import _options
     from zteleop.cli._graph import graph
     from zteleop.errors import ZteleopError
 
-    parser = argparse.ArgumentParser(add_help=False, exit_on_error=False)
-    _options.add(parser)
-    arguments = parser.parse_args([])
-    with suppress(argparse.ArgumentError, SystemExit), redirect_stderr(io.StringIO()):
-        arguments, _ = parser.parse_known_args(typed)
-    with suppress(ZteleopError), graph(arguments) as found:
+    with suppress(ZteleopError), graph(_known(typed)[0]) as found:
         return pick(found)
     return ()
+
+
+def _known(typed: list[str]) -> tuple[argparse.Namespace, list[str]]:
+    """Return what was typed of where the bus is, and the other words."""
+    from zteleop.cli import _options
+
+    parser = argparse.ArgumentParser(add_help=False, exit_on_error=False)
+    _options.add(parser)
+    arguments, words = parser.parse_args([]), typed
+    with suppress(argparse.ArgumentError, SystemExit), redirect_stderr(io.StringIO()):
+        arguments, words = parser.parse_known_args(typed)
+    return arguments, [word for word in words if not word.startswith("-")]

@@ -1,25 +1,28 @@
 """Who is on the bus, as all who are connected tell; and words for whoever asks for one who is not."""
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import NamedTuple
 
 from zteleop.bus import presence
 from zteleop.bus.names import Name, resolve
+from zteleop.bus.parameters import SERVICES as PARAMETER_SERVICES
 from zteleop.bus.presence import Endpoint, Member
-from zteleop.bus.session import open_session
+from zteleop.bus.session import Session, open_session
 from zteleop.bus.topics import topic_of
 from zteleop.cli import _company, _options
 from zteleop.errors import BusError, nearest
 
 
 class Graph(NamedTuple):
-    """What every robot's nodes publish and hear, and the robot that was meant where none is said."""
+    """What every robot's nodes publish, hear and answer, and the robot that was meant where none is said."""
 
     endpoints: list[Endpoint]
     nodes: list[Member]
     robot: str | None
+    services: list[Endpoint] = []
+    with_parameters: list[Member] = []
 
     def topic(self, text: str) -> tuple[Name, list[Endpoint]]:
         """Return a topic and who publishes or hears it; raises BusError when nobody does."""
@@ -31,6 +34,34 @@ class Graph(NamedTuple):
         if not found:
             raise BusError(f"Unknown topic '/{name}'; {self._instead(name)}")
         return name, found
+
+    def service(self, text: str) -> tuple[Name, list[Endpoint]]:
+        """Return a service and who answers it; raises BusError when nobody does, or several robots do.
+
+        Whoever writes no robot means the one selected, or the only one that serves it.
+        """
+        wanted = text.strip("/")
+        known = {Name(one.robot, one.topic) for one in self.all_services}
+        found = {name for name in known if wanted in (str(name), name.path)}
+        own = {name for name in found if name == (self.robot, wanted)} or found
+        if len(own) > 1:
+            raise BusError(
+                f"several serve '{text}': {', '.join(f'/{name}' for name in sorted(own))}; say which"
+            )
+        if not own:
+            near = (
+                nearest(f"/{wanted}", (f"/{name}" for name in known))
+                if known
+                else "nobody serves anything here"
+            )
+            raise BusError(f"Unknown service '{text}'; {near}")
+        (name,) = own
+        return name, [one for one in self.all_services if (one.robot, one.topic) == name]
+
+    @property
+    def all_services(self) -> list[Endpoint]:
+        """Also those by which parameters are read and changed, which every node has."""
+        return [*self.services, *(one for node in self.with_parameters for one in parameter_services(node))]
 
     def _instead(self, name: Name) -> str:
         """Return what somebody may have meant who asked for a topic that nobody has."""
@@ -55,6 +86,14 @@ class Graph(NamedTuple):
         return _company.by_topic(self.endpoints)
 
 
+def parameter_services(node: Member) -> list[Endpoint]:
+    """Return the services by which a node's parameters are read and changed."""
+    return [
+        Endpoint(node.robot, "srv", node.node, node.process, ros_type, f"{node.node}/{name}")
+        for name, ros_type in PARAMETER_SERVICES.items()
+    ]
+
+
 def types_of(members: list[Endpoint]) -> list[str]:
     """Return the types that a topic carries, those first that it is made for."""
     made_for = [kind.ros_type for kind in topic_of(members[0].topic).types]
@@ -62,11 +101,36 @@ def types_of(members: list[Endpoint]) -> list[str]:
     return [*made_for, *sorted(told.difference(made_for))] or ["any"]
 
 
+def find_node(text: str, members: Sequence[Member], robot: str | None) -> tuple[str, str]:
+    """Return robot and name of a node that somebody typed; raises BusError for one that is not there."""
+    known = sorted({f"/{node.robot}/{node.node}" for node in members})
+    named = text.strip("/")
+    wanted = [one for one in known if one == f"/{named}" or ("/" not in named and one.endswith(f"/{named}"))]
+    own = [one for one in wanted if one == f"/{robot}/{named}"] or wanted
+    if len(own) > 1:
+        raise BusError(f"{len(own)} nodes are called {named}: {', '.join(own)}; say which")
+    if not own:
+        raise BusError(f"Unable to find node '{text}'; {nearest(f'/{named}', known)}")
+    _, found, node = own[0].split("/")
+    return found, node
+
+
 @contextmanager
 def graph(arguments: argparse.Namespace) -> Iterator[Graph]:
     """Join the bus until everybody has told what there is."""
     settings = _options.load(arguments)
     with open_session(settings.bus, settle=True) as session:
-        robots = presence.robots(session)
-        robot = settings.robot or (robots[0] if len(robots) == 1 else None)
-        yield Graph(presence.endpoints(session), presence.nodes(session), robot)
+        yield look(session, settings.robot)
+
+
+def look(session: Session, selected: str | None) -> Graph:
+    """Return who is there now; of the robots the one selected is meant, or the only one."""
+    robots = presence.robots(session)
+    robot = selected or (robots[0] if len(robots) == 1 else None)
+    return Graph(
+        presence.endpoints(session),
+        presence.nodes(session),
+        robot,
+        presence.services(session),
+        presence.with_parameters(session),
+    )

@@ -135,6 +135,17 @@ def seconds(text: str) -> float:
     return found
 
 
+def rate_hz(text: str) -> float:
+    """Return how often a second, as typed."""
+    try:
+        found = float(text)
+    except ValueError:
+        found = 0.0
+    if not 0 < found <= 1000:
+        raise argparse.ArgumentTypeError(f"a rate is more than 0 and at most 1000 Hz, found {text}")
+    return found
+
+
 def _robot(text: str) -> str:
     try:
         return robot_name(text)

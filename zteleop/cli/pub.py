@@ -44,7 +44,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "values", nargs="?", default="{}", help="YAML: '{linear: {x: 0.2}}'; the rest is 0; stamp: now"
     )
-    parser.add_argument("-r", "--rate", metavar="HZ", type=_rate_hz, default=1.0, help="default: 1")
+    parser.add_argument("-r", "--rate", metavar="HZ", type=_options.rate_hz, default=1.0, help="default: 1")
     parser.add_argument("-1", "--once", action="store_true", help="say it once and end")
     parser.add_argument("--for", metavar="TIME", dest="lasts", type=_options.seconds, help="end after 2s")
     parser.add_argument(
@@ -210,13 +210,3 @@ def _hears(node: Node, publisher: Publisher[M], name: Name, wanted: int = 1) -> 
 
 def _who_hears(node: Node, name: Name) -> str:
     return printable(_company.who_hears(name, presence.endpoints(node.membership.session)))
-
-
-def _rate_hz(text: str) -> float:
-    try:
-        rate_hz = float(text)
-    except ValueError:
-        rate_hz = 0.0
-    if not 0 < rate_hz <= 1000:
-        raise argparse.ArgumentTypeError(f"a rate is more than 0 and at most 1000 Hz, found {text}")
-    return rate_hz

@@ -53,7 +53,7 @@ class Strain(NamedTuple):
 AT_EASE = Strain(1.0, "")
 
 
-Reason = Literal["vehicle", "source", "link", "strain"]
+Reason = Literal["vehicle", "source", "link", "strain", "parameter"]
 
 
 class Bound(NamedTuple):
@@ -101,6 +101,8 @@ class Cap:
         self.top = top
         self._sources = sources
         self._ages: dict[str, Ages] = {}
+        self._tuned = top
+        """m/s that somebody has set while it ran"""
         self.strain = AT_EASE
 
     def note(self, source: str, sender: int, age: float, now: float) -> None:
@@ -120,12 +122,16 @@ class Cap:
         """Learn how much the robot can bear."""
         if strain != self.strain:
             self.strain = strain
-            for ages in self._ages.values():
-                ages.bound = None
+            self._find_anew()
+
+    def tune(self, speed: float) -> None:
+        """Learn how fast, in m/s, it may go now; never faster than the settings say."""
+        self._tuned = min(speed, self.top)
+        self._find_anew()
 
     def rest(self) -> Bound:
         """Return what bounds whoever may drive next."""
-        return _least([(self.top, "vehicle"), self._borne], 0.0)
+        return _least([(self.top, "vehicle"), (self._tuned, "parameter"), self._borne], 0.0)
 
     def find(self, source: str, now: float) -> Bound:
         """Return what bounds the driver of a source; found anew five times a second."""
@@ -140,7 +146,18 @@ class Cap:
         its = self._sources[source]
         speed = self._settings.speed(self.top, latency, its.silence)
         own = its.max_speed or self.top
-        return _least([(self.top, "vehicle"), (own, "source"), (speed, "link"), self._borne], latency)
+        bounds: list[tuple[float, Reason]] = [
+            (self.top, "vehicle"),
+            (self._tuned, "parameter"),
+            (own, "source"),
+            (speed, "link"),
+            self._borne,
+        ]
+        return _least(bounds, latency)
+
+    def _find_anew(self) -> None:
+        for ages in self._ages.values():
+            ages.bound = None
 
     @property
     def _borne(self) -> tuple[float, Reason]:

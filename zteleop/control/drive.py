@@ -6,6 +6,7 @@ from zteleop.control.admission import Admission, Verdict
 from zteleop.control.calibration import Calibration
 from zteleop.control.cap import Bound
 from zteleop.control.gate import Refusal
+from zteleop.control.limiter import Limits
 from zteleop.control.mixer import Wheels
 from zteleop.control.movement import Movement
 from zteleop.control.mux import Claim
@@ -35,6 +36,15 @@ class Drive:
         self.movement = Movement(settings, self.calibration)
         self.clamped = 0
         """commands so far that asked for more than a servo can do"""
+
+    @property
+    def limits(self) -> Limits:
+        """The bounds of motion that hold; others may take their place between two steps."""
+        return self.movement.limits
+
+    @limits.setter
+    def limits(self, limits: Limits) -> None:
+        self.movement.limits = limits
 
     def receive(self, source: str, command: Twist | Pwm, proof: Proof | None, now: float) -> Refusal | None:
         """Judge a command that arrived; return why it does not count."""

@@ -36,6 +36,8 @@ def slowed(seen: Snapshot) -> str:
     claim, bound = seen.step.claim, seen.step.bound
     if bound.by == "strain":
         return seen.strain
+    if bound.by == "parameter":
+        return f"limits.speed is set to {_metres(bound.speed)} m/s"
     if claim is None or bound.by == "vehicle":
         return ""
     if bound.by == "source":
@@ -123,7 +125,7 @@ def _limiter(seen: Snapshot) -> str:
 
 def _bounds(seen: Snapshot, claim: Claim, asked: Twist, applied: Twist) -> Iterator[str]:
     """Yield what bounds a claim."""
-    mixer, limits = seen.settings.mixer, seen.settings.limits
+    mixer, limits = seen.settings.mixer, seen.limits
     speed = seen.step.bound.speed
     if abs(asked.linear.x) > speed + _LEAST:
         yield _top(claim.source, seen.step.bound)
@@ -139,9 +141,12 @@ def _bounds(seen: Snapshot, claim: Claim, asked: Twist, applied: Twist) -> Itera
 def _top(source: str, bound: Bound) -> str:
     """Return what bounds the speed: the vehicle itself, the settings of its source, or the cap."""
     speed = f"{_metres(bound.speed)} m/s"
-    return {"vehicle": f"it does {speed} at most", "source": f"{source} may drive {speed} here"}.get(
-        bound.by, f"it may do {speed} now"
-    )
+    words = {
+        "vehicle": f"it does {speed} at most",
+        "source": f"{source} may drive {speed} here",
+        "parameter": f"limits.speed is set to {speed}",
+    }
+    return words.get(bound.by, f"it may do {speed} now")
 
 
 def _wheels(seen: Snapshot, chip: Evidence) -> str:

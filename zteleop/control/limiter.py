@@ -3,6 +3,7 @@
 from typing import Annotated
 
 from msgspec import Meta, Struct
+from msgspec.structs import replace
 
 from zteleop.control import curvature
 from zteleop.control.mixer import Mixer, Wheels
@@ -32,6 +33,10 @@ class Limits(Struct, frozen=True, forbid_unknown_fields=True):
         """Return the highest speed, in m/s, of a vehicle, and of a source that is capped."""
         return min(bound for bound in (cap, self.speed, mixer.max_speed) if bound is not None)
 
+    def in_numbers(self, mixer: Mixer) -> "Limits":
+        """Return the same limits, with a number where it is the vehicle that says so."""
+        return replace(self, speed=self.speed_of(mixer), turn=self.turn_of(mixer))
+
     def turn_of(self, mixer: Mixer) -> float:
         """Return the highest yaw rate, in rad/s, of a vehicle."""
         return min(self.turn or mixer.max_turn, mixer.max_turn)
@@ -41,12 +46,21 @@ class TwistLimiter:
     """Follows the wanted twist no faster than the limits allow, on the same curve."""
 
     def __init__(self, limits: Limits, mixer: Mixer) -> None:
-        self._limits = limits
-        self._steers = mixer.steers
-        self._speed = limits.speed_of(mixer)
-        self._turn = limits.turn_of(mixer)
+        self._mixer = mixer
+        self.limits = limits
         self._last = (0.0, 0.0)
         self._then: float | None = None
+
+    @property
+    def limits(self) -> Limits:
+        """The bounds that hold; others may take their place at any time."""
+        return self._limits
+
+    @limits.setter
+    def limits(self, limits: Limits) -> None:
+        self._limits = limits
+        self._speed = limits.speed_of(self._mixer)
+        self._turn = limits.turn_of(self._mixer)
 
     def follow(self, applied: Twist | None) -> None:
         """Start the next ramp from what was applied by other means; None is rest."""
@@ -61,7 +75,7 @@ class TwistLimiter:
             return None
         bound = self._speed if max_speed is None else max_speed
         speed, turn = self._scale(wanted.linear.x, wanted.angular.z, bound)
-        if self._steers:
+        if self._mixer.steers:
             self._last = self._steer(speed, curvature.of(wanted.linear.x, wanted.angular.z), dt)
         else:
             self._last = self._rotate(speed, turn, dt)
@@ -69,7 +83,7 @@ class TwistLimiter:
 
     def _scale(self, speed: float, turn: float, max_speed: float) -> tuple[float, float]:
         excess = max(1.0, abs(speed) / min(max_speed, self._speed))
-        if curvature.rolls(speed) or not self._steers:
+        if curvature.rolls(speed) or not self._mixer.steers:
             excess = max(excess, abs(turn) / self._turn)
         return speed / excess, turn / excess
 
@@ -89,14 +103,24 @@ class WheelLimiter:
     """Slews each channel, and obeys the driven ones for a share of the time only."""
 
     def __init__(self, limits: Limits, mixer: Mixer, servos: dict[str, Servo]) -> None:
-        self._limits = limits
         self._mixer = mixer
-        self._rates = {name: servo.slew_rate for name, servo in servos.items()}
-        if mixer.takes_ticks and self._rates["throttle"] is None:  # ticks pass the limiter of twists by
-            self._rates["throttle"] = limits.acceleration / mixer.max_speed
+        self._servos = servos
+        self.limits = limits
         self._rest: Wheels = dict.fromkeys(servos, 0.0)
         self._last: Wheels = self._rest
         self._then: float | None = None
+
+    @property
+    def limits(self) -> Limits:
+        """The bounds that hold; others may take their place at any time."""
+        return self._limits
+
+    @limits.setter
+    def limits(self, limits: Limits) -> None:
+        self._limits = limits
+        self._rates = {name: servo.slew_rate for name, servo in self._servos.items()}
+        if self._mixer.takes_ticks and self._rates["throttle"] is None:  # ticks pass the limiter of twists by
+            self._rates["throttle"] = limits.acceleration / self._mixer.max_speed
 
     def limit(self, wheels: Wheels | None, now: float) -> Wheels | None:
         """Return the next position of each wheel."""

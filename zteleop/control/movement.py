@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 from zteleop.control.calibration import Calibration
 from zteleop.control.cap import Bound, Cap
-from zteleop.control.limiter import TwistLimiter, WheelLimiter
+from zteleop.control.limiter import Limits, TwistLimiter, WheelLimiter
 from zteleop.control.mixer import Wheels
 from zteleop.control.mux import Claim
 from zteleop.control.settings import DriveSettings
@@ -29,6 +29,16 @@ class Movement:
         self._calibration = calibration
         self._limiter = TwistLimiter(settings.limits, settings.mixer)
         self._wheel_limiter = WheelLimiter(settings.limits, settings.mixer, settings.servos)
+
+    @property
+    def limits(self) -> Limits:
+        """The bounds that hold, never wider than those of the settings."""
+        return self._limiter.limits
+
+    @limits.setter
+    def limits(self, limits: Limits) -> None:
+        self._limiter.limits = self._wheel_limiter.limits = limits
+        self.cap.tune(limits.speed_of(self._mixer))
 
     def obey(self, claim: Claim | None, now: float) -> Moved:
         """Return the wheels of now; without a claim those of rest."""

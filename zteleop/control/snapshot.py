@@ -6,6 +6,7 @@ from typing import NamedTuple
 from zteleop.control.calibration import Calibration
 from zteleop.control.drive import Drive, Step
 from zteleop.control.hold import Hold
+from zteleop.control.limiter import Limits
 from zteleop.control.mux import Claim
 from zteleop.control.refusals import Refused
 from zteleop.control.settings import DriveSettings
@@ -18,6 +19,8 @@ class Snapshot(NamedTuple):
     """All of a drive that a sentence needs, as it was at one step."""
 
     settings: DriveSettings
+    limits: Limits
+    """that hold now"""
     calibration: Calibration
     step: Step
     claims: list[Claim]
@@ -42,6 +45,7 @@ def snapshot(drive: Drive, step: Step, now: float) -> Snapshot:
     admission, cap = drive.admission, drive.movement.cap
     return Snapshot(
         settings=drive.settings,
+        limits=drive.limits,
         calibration=drive.calibration,
         step=step,
         claims=[claim for claim in admission.mux.claims if not admission.silences.silent(claim, now)],

@@ -15,9 +15,11 @@ from zteleop.drivers import PulseDriver
 from zteleop.errors import DeviceError, MessageError
 from zteleop.machine.health import LOOK_EVERY, Health
 from zteleop.machine.ids import new_id
+from zteleop.machine.limits_file import LimitsFile
 from zteleop.machine.link import UNWATCHED, ActuatorEnd, Report
 from zteleop.machine.stop_file import StopFile
 from zteleop.messages import Message, Stop
+from zteleop.nodes.limit_parameters import LimitParameters
 from zteleop.nodes.output import Output, keeps_settings
 from zteleop.nodes.state_publisher import StatePublisher
 from zteleop.recording.journal import Journal
@@ -48,6 +50,7 @@ class Actuator:
         driver: PulseDriver,
         link: ActuatorEnd,
         stop_file: StopFile,
+        limits_file: LimitsFile,
         journal: Journal,
         health: Health | None = None,
         standing: Standing | None = None,
@@ -67,6 +70,7 @@ class Actuator:
         # Whoever drove had an ESC that was armed, and the watchdog has kept the chip at neutral since.
         self._output.start(now, arm=standing is None or standing.source == NOBODY)
         self._state = StatePublisher(node, self._drive, driver.tick_us, self._output, stop_file)
+        LimitParameters(node, self._drive, limits_file, lambda words: journal.event("limits", says=words))
         self._drive.admission.latch.released = stop_file.released()
         if standing:
             self._take_over(standing, now)

@@ -13,6 +13,7 @@ from zteleop.drivers import open_driver
 from zteleop.errors import ConfigError, DeviceError
 from zteleop.machine import link, realtime
 from zteleop.machine.health import Health
+from zteleop.machine.limits_file import LimitsFile
 from zteleop.machine.link import ActuatorEnd
 from zteleop.machine.stop_file import StopFile
 from zteleop.nodes.actuator import Actuator
@@ -40,6 +41,7 @@ def run(number: int) -> int:
             open_driver(settings.driver, chip, exclusive=False),
             end,
             StopFile(folder / "stop", node.log.error),
+            LimitsFile(folder / "limits.json"),
             Journal(folder, settings.journal, node.log.warn),
             Health(Path("/sys"), node.log),
             standing,

@@ -1,10 +1,12 @@
 """A node that is on no bus: it remembers what was said, and hears what a test says to it."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from types import SimpleNamespace
 from typing import Any, Self
 
 from zteleop.bus.heard import Heard
+from zteleop.bus.parameters import Bounds, Declared
+from zteleop.errors import BusError
 from zteleop.messages import Beat, Message, Vehicle
 from zteleop.testing.clock import Clock
 from zteleop.testing.link import Link
@@ -130,10 +132,14 @@ class FakeNode:
         """By topic, what was published."""
         self.inboxes: dict[str, Inbox] = {}
         """By topic, what is subscribed to."""
+        self.services: dict[str, Callable[[Any], Message]] = {}
+        """By name, who answers."""
+        self.parameters: dict[str, Declared[Any]] = {}
         self.infos: list[str] = []
         self.warnings: list[str] = []
         self.errors: list[str] = []
         self.log = SimpleNamespace(
+            debug=lambda text: None,
             info=self.infos.append,
             warn=lambda text, subject="": self.warnings.append(text),
             error=lambda text, subject="": self.errors.append(text),
@@ -176,6 +182,37 @@ class FakeNode:
             return function
 
         return decorate
+
+    def service(
+        self,
+        name: str,
+        request: type[Message],
+        response: type[Message],
+        handler: Callable[[Any], Message],
+    ) -> None:
+        self.services[name] = handler
+
+    def call(self, name: str, request: Message, response: type[Message], seconds: float = 2.0) -> Any:
+        """Ask a service that this node has, or that a test has put in its place."""
+        if name not in self.services:
+            raise BusError(f"nobody serves {name}")
+        return self.services[name](request)
+
+    def parameter(
+        self,
+        name: str,
+        value: Any,
+        description: str = "",
+        *,
+        least: float | None = None,
+        most: float | None = None,
+        choices: Sequence[str] = (),
+        changed: Callable[[Any], object] | None = None,
+    ) -> Declared[Any]:
+        """Return a parameter; a test changes it by its `set`."""
+        declared = Declared(name, value, description, Bounds(least, most, choices), changed)
+        self.parameters[name] = declared
+        return declared
 
     def every(self, period: float) -> Callable[[Action], Action]:
         def decorate(function: Action) -> Action:

@@ -1,7 +1,7 @@
 """A session without a network: it remembers what was declared on it."""
 
 from collections import deque
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from types import SimpleNamespace
 from typing import Any
 
@@ -9,7 +9,7 @@ import zenoh
 
 from zteleop.bus import codec
 from zteleop.bus.pump import Pump
-from zteleop.bus.session import Sample
+from zteleop.bus.session import Question, Reply, Sample
 from zteleop.messages import Message
 
 
@@ -66,7 +66,17 @@ class Session:
         self.alive, self.comings = list(tokens), Ring()
         self.rings: dict[str, Ring] = {}
         self.outlets: dict[str, tuple[Outlet, bool]] = {}
+        self.served: dict[str, Callable[[Question], object]] = {}
+        self.asked: list[tuple[str, bytes, str, float]] = []
+        self.reply: Reply | None = None
         self.closed = False
+
+    def serve(self, key: str, take: Callable[[Question], object]) -> None:
+        self.served[key] = take
+
+    def ask(self, key: str, payload: bytes, encoding: str, seconds: float) -> Reply | None:
+        self.asked.append((key, payload, encoding, seconds))
+        return self.reply
 
     def declare_token(self, key: str) -> None:
         self.alive.append(key)

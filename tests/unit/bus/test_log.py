@@ -100,3 +100,24 @@ def test_the_listener_may_change(ears: Ears) -> None:
     ears.log.show = elsewhere.append
     ears.log.info("a")
     assert (ears.shown, elsewhere) == ([], ["nose: info: a"])
+
+
+@pytest.mark.parametrize(
+    ("level", "told"),
+    [
+        ("debug", ["a", "b", "c", "d"]),
+        ("info", ["b", "c", "d"]),
+        ("warn", ["c", "d"]),
+        ("error", ["d"]),
+    ],
+)
+def test_only_what_is_of_a_level_or_above_is_told(ears: Ears, level: str, told: list[str]) -> None:
+    ears.log.tell_from(level)
+    for say, text in zip((ears.log.debug, ears.log.info, ears.log.warn, ears.log.error), "abcd", strict=True):
+        say(text)
+    assert ears.texts == told
+
+
+def test_without_a_word_debugging_is_told_to_nobody(ears: Ears) -> None:
+    ears.log.debug("a")
+    assert (ears.texts, ears.shown) == ([], [])

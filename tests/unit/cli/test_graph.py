@@ -4,7 +4,7 @@ import pytest
 
 from zteleop.bus.presence import Endpoint, Member
 from zteleop.cli import graph, info, node_info
-from zteleop.cli._graph import Graph, types_of
+from zteleop.cli._graph import Graph, find_node, types_of
 from zteleop.errors import BusError
 
 TWIST, STAMPED = "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped"
@@ -29,6 +29,12 @@ HERE = Graph(
         Member("bob", "actuator", "pi-8"),
     ],
     "abe",
+    [
+        Endpoint("abe", "srv", "lights", "pi-9", "std_srvs/srv/SetBool", "lights"),
+        Endpoint("bob", "srv", "lights", "pi-9", "std_srvs/srv/SetBool", "lights"),
+        Endpoint("bob", "srv", "doors", "pi-9", "std_srvs/srv/Trigger", "doors/left"),
+    ],
+    [Member("abe", "actuator", "pi-7")],
 )
 
 
@@ -73,11 +79,12 @@ def test_a_topic_that_nobody_has_is_unknown_and_the_nearest_is_told() -> None:
 
 
 def test_a_node_is_told_with_all_its_processes() -> None:
-    assert list(node_info.lines(*node_info._named("keyboard", HERE), HERE)) == [
+    assert list(node_info.lines(*find_node("keyboard", HERE.nodes, HERE.robot), HERE)) == [
         "/abe/keyboard",
         "  Subscribers:",
         "  Publishers:",
         f"    /abe/cmd_vel/keyboard: {STAMPED}",
+        "  Service Servers:",
         "  Processes:",
         "    mac-1",
         "    mac-2",
@@ -86,17 +93,17 @@ def test_a_node_is_told_with_all_its_processes() -> None:
 
 @pytest.mark.parametrize("text", ["actuator", "abe/actuator", "/abe/actuator"])
 def test_a_node_is_the_one_of_the_robot_meant(text: str) -> None:
-    assert node_info._named(text, HERE) == ("abe", "actuator")
-    assert node_info._named("/bob/actuator", HERE) == ("bob", "actuator")
+    assert find_node(text, HERE.nodes, HERE.robot) == ("abe", "actuator")
+    assert find_node("/bob/actuator", HERE.nodes, HERE.robot) == ("bob", "actuator")
 
 
 def test_a_node_of_several_robots_or_of_none_is_asked_about() -> None:
     with pytest.raises(
         BusError, match="2 nodes are called actuator: /abe/actuator, /bob/actuator; say which"
     ):
-        node_info._named("actuator", HERE._replace(robot=None))
+        find_node("actuator", HERE.nodes, None)
     with pytest.raises(BusError, match="Unable to find node 'keybord'; did you mean /abe/keyboard"):
-        node_info._named("keybord", HERE)
+        find_node("keybord", HERE.nodes, HERE.robot)
 
 
 def test_a_graph_is_an_arrow_for_each_topic() -> None:
@@ -115,3 +122,48 @@ def test_a_graph_can_be_drawn_whatever_a_stranger_calls_himself() -> None:
     assert '  "/abe/keyboard" -> "/abe/cmd_vel";' in dot
     assert '  "/abe/cmd_vel" -> "/abe/actuator";' in dot
     assert '  "/abe/a\\"b" -> "/abe/x";' in dot
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("lights", "/abe/lights"),
+        ("/bob/lights", "/bob/lights"),
+        ("doors/left", "/bob/doors/left"),
+        ("bob/doors/left", "/bob/doors/left"),
+        ("actuator/get_parameters", "/abe/actuator/get_parameters"),
+        ("/abe/actuator/list_parameters", "/abe/actuator/list_parameters"),
+    ],
+)
+def test_a_service_is_the_one_of_the_robot_meant_or_the_only_one(text: str, found: str) -> None:
+    name, servers = HERE.service(text)
+    assert (f"/{name}", len(servers)) == (found, 1)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("lihgts", r"Unknown service 'lihgts'; did you mean /bob/lights or /abe/lights\?"),
+        (
+            "keyboard/get_parameters",
+            "Unknown service 'keyboard/get_parameters'; did you mean /abe/actuator/get_",
+        ),
+    ],
+)
+def test_a_service_of_nobody_is_asked_about(text: str, words: str) -> None:
+    with pytest.raises(BusError, match=words):
+        HERE.service(text)
+
+
+def test_a_service_of_several_robots_is_asked_about() -> None:
+    with pytest.raises(BusError, match="several serve 'lights': /abe/lights, /bob/lights; say which"):
+        HERE._replace(robot=None).service("lights")
+    with pytest.raises(BusError, match="Unknown service 'lights'; nobody serves anything here"):
+        Graph([], [], None).service("lights")
+
+
+def test_a_node_is_told_with_what_it_answers() -> None:
+    shown = list(node_info.lines("bob", "doors", HERE))
+    assert shown[shown.index("  Service Servers:") + 1] == "    /bob/doors/left: std_srvs/srv/Trigger"
+    shown = list(node_info.lines("abe", "actuator", HERE))
+    assert "    /abe/actuator/set_parameters: rcl_interfaces/srv/SetParameters" in shown

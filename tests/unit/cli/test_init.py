@@ -58,7 +58,7 @@ def test_version_is_the_packages(flag: str, capsys: pytest.CaptureFixture[str]) 
         ("ech", "zteleop: no verb 'ech'; did you mean echo?"),
         ("fly", f"zteleop: no verb 'fly'; known: {', '.join(VERBS)}"),
         ("--robot", "zteleop: no verb '--robot'; known: "),
-        ("param", "zteleop: no verb 'param'; settings stand in config.toml: zteleop check shows them"),
+        ("bag", "zteleop: no verb 'bag'; a robot keeps its last minute: zteleop blackbox"),
         ("\x1b[2J", "zteleop: no verb '\\x1b[2J'; known: "),
         ("", "zteleop: no verb ''; known: "),
     ],

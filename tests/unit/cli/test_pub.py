@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from zteleop.cli import pub
+from zteleop.cli import _options, pub
 from zteleop.control.gate import Refusal
 from zteleop.control.resume import Resume
 from zteleop.messages import DriveStatus, Message, Refusals, Refused, Twist
@@ -114,13 +114,13 @@ def status(released: int, operator: str = "ff") -> DriveStatus:
 
 @pytest.mark.parametrize(("text", "rate"), [("20", 20.0), ("0.5", 0.5), ("1000", 1000.0)])
 def test_a_rate_is_a_number(text: str, rate: float) -> None:
-    assert pub._rate_hz(text) == rate
+    assert _options.rate_hz(text) == rate
 
 
 @pytest.mark.parametrize("text", ["0", "-1", "nan", "inf", "1001"])
 def test_a_rate_out_of_range_is_refused(text: str) -> None:
     with pytest.raises(argparse.ArgumentTypeError, match="a rate is more than 0 and at most 1000 Hz"):
-        pub._rate_hz(text)
+        _options.rate_hz(text)
 
 
 @pytest.mark.parametrize("times", ["0", "-3"])

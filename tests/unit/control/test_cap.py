@@ -230,3 +230,14 @@ def test_a_setting_that_means_nothing_is_refused(value: float) -> None:
     for name in CapSettings.__struct_fields__:
         with pytest.raises(msgspec.ValidationError):
             msgspec.convert({name: value}, CapSettings)
+
+
+def test_a_speed_that_is_set_bounds_everybody_at_once_until_it_is_set_back() -> None:
+    found = cap()
+    found.note("keyboard", 1, 0.01, 1.0)
+    assert found.find("keyboard", 1.0)[:2] == (TOP, "vehicle")
+    found.tune(0.5)
+    assert found.find("keyboard", 1.01)[:2] == (0.5, "parameter")
+    assert found.rest()[:2] == (0.5, "parameter")
+    found.tune(9 * TOP)
+    assert found.find("keyboard", 1.02)[:2] == (TOP, "vehicle")

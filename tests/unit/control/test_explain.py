@@ -242,3 +242,11 @@ def test_how_a_stop_is_known_to_have_reached_the_wheels_is_told(confirmed: Confi
 
 def test_pulses_that_the_chip_took_long_ago_are_told_as_such() -> None:
     assert says(Robot(), age=1.2)["wheels"].endswith("; which the chip took 1.2 s ago, and nothing since")
+
+
+def test_a_speed_that_somebody_set_is_told_also_at_rest_and_what_it_makes_of_a_wish() -> None:
+    robot = Robot()
+    robot.drive.limits = Limits(speed=0.3)
+    assert says(robot)["cap"] == "0.3 of 3 m/s: limits.speed is set to 0.3 m/s"
+    robot.hold(FORWARD, 2.0)
+    assert says(robot)["limiter"].endswith(": limits.speed is set to 0.3 m/s")

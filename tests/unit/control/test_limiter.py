@@ -97,3 +97,27 @@ def test_named_pulses_obey_the_speed_cap() -> None:
     limiter = WheelLimiter(Limits(speed=1.5), Ackermann(max_speed=3.0), DONKEYCAR)
     assert limiter.cap({"throttle": 1.0, "steering": -2.0}, None) == {"throttle": 0.5, "steering": -1.0}
     assert limiter.cap({"throttle": -1.0, "steering": 0.0}, 0.3)["throttle"] == pytest.approx(-0.1)
+
+
+def test_limits_that_change_while_it_drives_hold_from_the_next_step() -> None:
+    limiter = TwistLimiter(Limits(), CAR)
+    assert settle(limiter, Twist.planar(2.0)).linear.x == pytest.approx(2.0)
+    limiter.limits = Limits(speed=0.5, acceleration=2.0)
+    assert limiter.limit(Twist.planar(2.0), 5.08).linear.x == pytest.approx(1.8)  # it brakes as it may
+    assert settle(limiter, Twist.planar(2.0), 6.0).linear.x == pytest.approx(0.5)
+    limiter.limits = Limits(turn=0.2)
+    assert settle(limiter, Twist.planar(0.1, 1.0), 12.0).angular.z == pytest.approx(0.2)
+
+
+def test_ticks_obey_limits_that_change_too() -> None:
+    limiter = WheelLimiter(Limits(), CAR, DONKEYCAR)
+    wheels = {"throttle": 1.0, "steering": 0.0}
+    assert limiter.cap(wheels, None)["throttle"] == 1.0
+    limiter.limits = Limits(speed=CAR.max_speed / 2, acceleration=CAR.max_speed / 10)
+    assert limiter.cap(wheels, None)["throttle"] == pytest.approx(0.5)
+    limiter.limit(wheels, 1.0)
+    assert limiter.limit(wheels, 2.0) == {"throttle": pytest.approx(0.1), "steering": 0.0}
+
+
+def test_limits_in_numbers_say_what_the_vehicle_can() -> None:
+    assert Limits(turn=1.0).in_numbers(CAR) == Limits(speed=CAR.max_speed, turn=1.0)

@@ -1,7 +1,8 @@
-"""A stop file without a file."""
+"""A stop file without a file, and one of limits."""
 
 from collections.abc import Iterable
 
+from zteleop.errors import DeviceError
 from zteleop.messages import Stop
 
 
@@ -53,3 +54,22 @@ class Shelf:
     def remove(self) -> None:
         """Do what somebody does by hand."""
         self.stops = []
+
+
+class LimitsShelf:
+    """Keeps limits, unless a test says that it cannot."""
+
+    def __init__(self, **values: float) -> None:
+        self.values = dict(values)
+        self.full = self.torn = False
+        """Nothing can be kept, or read."""
+
+    def load(self) -> dict[str, float]:
+        if self.torn:
+            raise DeviceError("it is no list of limits")
+        return dict(self.values)
+
+    def keep(self, values: dict[str, float]) -> None:
+        if self.full:
+            raise DeviceError("no space left")
+        self.values = dict(values)

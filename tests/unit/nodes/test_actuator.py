@@ -1,7 +1,7 @@
 from pathlib import Path
 
 import pytest
-from unit.nodes.fakes import Shelf
+from unit.nodes.fakes import LimitsShelf, Shelf
 
 from zteleop.bus.subscription import Received
 from zteleop.bus.topics import TOPICS
@@ -101,6 +101,7 @@ class Robot:
             self.chip,
             self.link,
             self.shelf,
+            LimitsShelf(),
             self.journal,
             health,
             standing,
@@ -162,7 +163,7 @@ def test_it_hears_every_source_it_knows_by_name_and_stops(node: FakeNode, clock:
 
 def test_the_chip_starts_at_neutral_and_is_left_at_neutral(node: FakeNode, clock: Clock) -> None:
     chip, journal = MemoryChip(), Journal()
-    actuator = Actuator(node, DriveSettings(), chip, Link(), Shelf(), journal)
+    actuator = Actuator(node, DriveSettings(), chip, Link(), Shelf(), LimitsShelf(), journal)
     assert (chip.log, chip.writes) == (["start", "read"], [NEUTRAL])
 
     def spin() -> None:
@@ -180,7 +181,7 @@ def test_a_chip_that_takes_no_neutral_at_the_end_is_said_and_all_is_closed(
     node: FakeNode, clock: Clock
 ) -> None:
     chip, journal, link = MemoryChip(), Journal(), Link()
-    actuator = Actuator(node, DriveSettings(), chip, link, Shelf(), journal)
+    actuator = Actuator(node, DriveSettings(), chip, link, Shelf(), LimitsShelf(), journal)
     chip.broken.add("write")
     with pytest.raises(DeviceError, match="does not take a write"):
         actuator.run()
@@ -193,7 +194,7 @@ def test_the_watchdog_is_told_of_an_end_before_anything_of_it_can_take_long(
     node: FakeNode, clock: Clock
 ) -> None:
     chip, link = MemoryChip(), Link()
-    actuator = Actuator(node, DriveSettings(), chip, link, Shelf(), Journal())
+    actuator = Actuator(node, DriveSettings(), chip, link, Shelf(), LimitsShelf(), Journal())
     write, told = chip.write, []
     chip.write = lambda *values: told.append(link.closed) or write(*values)
     actuator.run()

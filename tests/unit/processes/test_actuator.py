@@ -29,7 +29,15 @@ def made(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> dict[str, Any]:
         made["left"] = True
 
     def obeyer(
-        node: Any, drive: Any, driver: Any, end: Any, stop_file: Any, journal: Any, health: Any, standing: Any
+        node: Any,
+        drive: Any,
+        driver: Any,
+        end: Any,
+        stop_file: Any,
+        limits_file: Any,
+        journal: Any,
+        health: Any,
+        standing: Any,
     ) -> Any:
         made.update(drive=drive, end=end, stop=stop_file.path, journal=journal, health=health)
         made.update(standing=standing)

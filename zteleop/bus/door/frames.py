@@ -60,8 +60,24 @@ class AskTokens(Struct, array_like=True, frozen=True, tag=7):
     selector: str
 
 
-Declaration = Subscribe | WatchTokens | Advertise | Stand
-Ask = Declaration | Undeclare | Put | AskTokens
+class Serve(Struct, array_like=True, frozen=True, tag=8):
+    """Be asked under a key."""
+
+    id: int
+    key: str
+
+
+class Replied(Struct, array_like=True, frozen=True, tag=9):
+    """The answer to an Asked; the payload of a refusal is its sentence."""
+
+    question: int
+    payload: bytes
+    encoding: str
+    refused: bool
+
+
+Declaration = Subscribe | WatchTokens | Advertise | Stand | Serve
+Ask = Declaration | Undeclare | Put | AskTokens | Replied
 
 
 class Hello(Struct, array_like=True, frozen=True, tag=1):
@@ -86,4 +102,13 @@ class Tokens(Struct, array_like=True, frozen=True, tag=3):
     keys: list[str]
 
 
-Answer = Hello | Arrived | Tokens
+class Asked(Struct, array_like=True, frozen=True, tag=4):
+    """What somebody asks, for the Serve of that id."""
+
+    id: int
+    question: int
+    payload: bytes
+    encoding: str
+
+
+Answer = Hello | Arrived | Tokens | Asked

@@ -4,20 +4,25 @@ What arrives comes in a thread of zenoh's and is passed on there and then: one h
 for what these processes ask. It never waits for them either.
 """
 
+import secrets
 import socket
 import threading
 from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
+from itertools import count
 
 from zteleop.bus import clock
 from zteleop.bus.door.frames import (
     Advertise,
     Arrived,
     Ask,
+    Asked,
     AskTokens,
     Hello,
     Put,
+    Replied,
+    Serve,
     Stand,
     Subscribe,
     Tokens,
@@ -26,7 +31,7 @@ from zteleop.bus.door.frames import (
 )
 from zteleop.bus.door.wire import Wire
 from zteleop.bus.loop import Loop
-from zteleop.bus.session import Outlet, Sample
+from zteleop.bus.session import Outlet, Question, Sample
 from zteleop.bus.zenoh_session import Undeclarable, ZenohSession
 from zteleop.control.allowance import Allowance
 from zteleop.errors import BusError
@@ -37,6 +42,11 @@ comes with a proof counts apart, so that nothing without one takes a command's p
 WAITING = 2**22
 """bytes that wait for a process that reads nothing; what comes after them is lost"""
 FLUSH_EVERY = 0.02
+QUESTIONS_AT_ONCE, QUESTION_EVERY = 20, 0.05
+"""of one key, and s until there may be one more; who asks besides is refused here"""
+TOO_MANY = "it is asked too often; ask again later"
+UNANSWERED = 5.0
+"""s after which a question is forgotten"""
 
 
 class Host:
@@ -74,6 +84,7 @@ class Host:
     def _flush(self) -> None:
         for guest in self._guests:
             guest.flush()
+            guest.forget(clock.now())
 
 
 class Guest:
@@ -85,9 +96,12 @@ class Guest:
         self._complain = complain
         self._declared: dict[int, Undeclarable] = {}
         self._outlets: dict[int, Outlet] = {}
-        self._waiting: deque[Arrived] = deque()
+        self._waiting: deque[Arrived | Asked] = deque()
         self._waiting_bytes = 0
         self._passing = threading.Lock()
+        self._questions: dict[int, tuple[float, Question]] = {}
+        """which wait for an answer, and since when"""
+        self._numbers = count(secrets.randbits(32))  # an answer to another door's question is none here
 
     def fileno(self) -> int:
         return self._wire.fileno()
@@ -111,6 +125,12 @@ class Guest:
             while self._waiting and self._wire.send(self._waiting[0]):
                 self._waiting_bytes -= len(self._waiting.popleft().payload)
 
+    def forget(self, now: float) -> None:
+        """Give up what is not answered."""
+        for number, (since, _) in list(self._questions.items()):
+            if now - since > UNANSWERED:
+                self._questions.pop(number, None)
+
     def leave(self) -> None:
         """Take back all that it declared."""
         for declared in self._declared.values():
@@ -132,6 +152,10 @@ class Guest:
             self._declared[ask.id] = outlet
         elif isinstance(ask, Stand):
             self._declared[ask.id] = self._session.stand(ask.key)
+        elif isinstance(ask, Serve):
+            self._declared[ask.id] = self._session.heed(ask.key, self._asker(ask.id))
+        elif isinstance(ask, Replied):
+            self._reply(ask)
         elif isinstance(ask, Undeclare):
             self._outlets.pop(ask.id, None)
             if declared := self._declared.pop(ask.id, None):
@@ -152,7 +176,30 @@ class Guest:
 
         return passes
 
-    def _pass(self, arrived: Arrived) -> None:
+    def _asker(self, identity: int) -> Callable[[Question], None]:
+        """Return what passes questions on; zenoh calls it in threads of its own."""
+        allowance = Allowance(QUESTIONS_AT_ONCE, QUESTION_EVERY)
+
+        def asks(question: Question) -> None:
+            now = clock.now()
+            if not allowance.has(now):
+                question.refuse(TOO_MANY)
+                return
+            allowance.spend(now)
+            number = next(self._numbers)
+            self._questions[number] = now, question
+            self._pass(Asked(identity, number, question.payload, question.encoding))
+
+        return asks
+
+    def _reply(self, replied: Replied) -> None:
+        _, question = self._questions.pop(replied.question, (0.0, None))
+        if question and replied.refused:
+            question.refuse(replied.payload.decode(errors="replace"))
+        elif question:
+            question.answer(replied.payload, replied.encoding)
+
+    def _pass(self, arrived: Arrived | Asked) -> None:
         with self._passing:
             if not self._waiting and self._wire.send(arrived):
                 return

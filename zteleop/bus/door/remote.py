@@ -17,9 +17,12 @@ from zteleop.bus.door.frames import (
     Advertise,
     Answer,
     Arrived,
+    Asked,
     AskTokens,
     Declaration,
     Put,
+    Replied,
+    Serve,
     Stand,
     Subscribe,
     Tokens,
@@ -29,7 +32,7 @@ from zteleop.bus.door.frames import (
 from zteleop.bus.door.turns import Turns
 from zteleop.bus.door.wire import Wire
 from zteleop.bus.loop import Loop, Timer
-from zteleop.bus.session import Inbox, Sample
+from zteleop.bus.session import Inbox, Question, Reply, Sample
 from zteleop.errors import BusError
 
 REPLY_WITHIN = 3.0
@@ -50,6 +53,8 @@ class Remote:
         self._ids = count(1)
         self._declared: dict[int, Declaration] = {}
         self._rings: dict[int, RemoteRing] = {}
+        self._takes: dict[int, Callable[[Question], object]] = {}
+        """who is asked, by what was declared"""
         self._answers: dict[int, list[str]] = {}
         self._loop: Loop | None = None
         self._knock: Timer | None = None
@@ -72,6 +77,14 @@ class Remote:
 
     def declare_token(self, key: str) -> None:
         self._declare(Stand(next(self._ids), key))
+
+    def serve(self, key: str, take: Callable[[Question], object]) -> None:
+        identity = next(self._ids)
+        self._takes[identity] = take
+        self._declare(Serve(identity, key))
+
+    def ask(self, key: str, payload: bytes, encoding: str, seconds: float) -> Reply | None:
+        raise BusError("whoever is behind a door answers, and asks nobody")
 
     def tokens(self, selector: str) -> set[str]:
         """Return the tokens there are; raises BusError when no door answers."""
@@ -167,10 +180,23 @@ class Remote:
         if isinstance(frame, Arrived):
             if ring := self._rings.get(frame.id):
                 ring.take(Sample(frame.key, frame.payload, frame.encoding, frame.attachment, frame.is_put))
+        elif isinstance(frame, Asked):
+            self._pass_on(frame)
         elif isinstance(frame, Tokens):
             self._answers[frame.id] = frame.keys
         else:
             self._tell_all()
+
+    def _pass_on(self, asked: Asked) -> None:
+        def reply(payload: bytes, encoding: str, refused: bool = False) -> None:
+            if self._wire and self.is_open:  # of another door perhaps, which knows no such question
+                self._wire.send(Replied(asked.question, payload, encoding, refused), keep=True)
+
+        def refuse(words: str) -> None:
+            reply(words.encode(errors="replace"), "", refused=True)
+
+        if take := self._takes.get(asked.id):
+            take(Question(asked.payload, asked.encoding, reply, refuse))
 
     def _hear(self, declaration: Subscribe | WatchTokens) -> "RemoteRing":
         ring = self._rings[declaration.id] = RemoteRing(self, declaration.id, declaration.depth)

@@ -13,7 +13,7 @@ from zteleop.bus.door import host as module
 from zteleop.bus.door.host import Host
 from zteleop.bus.door.remote import Remote
 from zteleop.bus.loop import Loop
-from zteleop.bus.session import Sample
+from zteleop.bus.session import Question, Sample
 from zteleop.errors import BusError
 
 
@@ -27,6 +27,7 @@ class Zenoh:
 
     def __init__(self) -> None:
         self.hearers: dict[str, list[Callable[[Sample], None]]] = {}
+        self.takers: dict[str, Callable[[Question], object]] = {}
         self.alive: list[str] = []
         self.watchers: list[Callable[[Sample], None]] = []
         self.urgent: list[str] = []
@@ -42,6 +43,10 @@ class Zenoh:
         for key in self.alive if history else ():
             passes(Sample(key, b"", ""))
         return Declared(lambda: self.watchers.remove(passes))
+
+    def heed(self, key: str, take: Callable[[Question], object]) -> Declared:
+        self.takers[key] = take
+        return Declared(lambda: self.takers.pop(key))
 
     def advertise(self, key: str, urgent: bool) -> Any:
         outlet = Declared(lambda: None)
@@ -321,3 +326,92 @@ def test_who_finds_nobody_at_the_place_knocks_again(house: House) -> None:
     assert guest.is_open
     guest.close()
     loop.close()
+
+
+class Asker:
+    """Somebody on the bus who asks."""
+
+    def __init__(self, house: House) -> None:
+        self.house = house
+        self.answers: list[tuple[bytes, str]] = []
+        self.refusals: list[str] = []
+
+    def ask(self, payload: bytes = b"?", key: str = "robot/a/srv/x") -> None:
+        said = Question(payload, "text/plain", lambda *it: self.answers.append(it), self.refusals.append)
+        self.house.zenoh.takers[key](said)
+
+
+def test_what_a_stranger_asks_is_answered_through_the_door(house: House) -> None:
+    guest, asker = house.guest(), Asker(house)
+    asked: list[Question] = []
+    guest.serve("robot/a/srv/x", asked.append)
+    house.settle(guest)
+    asker.ask(b"one")
+    asker.ask(b"two")
+    house.settle(guest)
+    assert [(said.payload, said.encoding) for said in asked] == [
+        (b"one", "text/plain"),
+        (b"two", "text/plain"),
+    ]
+    asked[1].answer(b"yes", "application/json;x")
+    asked[0].refuse("not \ud800 today")
+    house.settle(guest)
+    assert asker.answers == [(b"yes", "application/json;x")]
+    assert asker.refusals == ["not ? today"]
+    asked[1].answer(b"again", "")
+    house.settle(guest)
+    assert len(asker.answers) == 1
+
+
+def test_questions_come_no_faster_than_a_robot_can_bear(house: House) -> None:
+    guest, asker = house.guest(), Asker(house)
+    asked: list[Question] = []
+    guest.serve("robot/a/srv/x", asked.append)
+    house.settle(guest)
+    for _ in range(1000):
+        asker.ask()
+    house.settle(guest)
+    assert module.QUESTIONS_AT_ONCE <= len(asked) <= module.QUESTIONS_AT_ONCE + 10
+    assert set(asker.refusals) == {module.TOO_MANY}
+    assert len(asked) + len(asker.refusals) == 1000
+
+
+def test_what_is_never_answered_is_forgotten(house: House) -> None:
+    guest, asker = house.guest(), Asker(house)
+    asked: list[Question] = []
+    guest.serve("robot/a/srv/x", asked.append)
+    house.settle(guest)
+    asker.ask()
+    house.settle(guest)
+    house.host._guests[0].forget(clock.now() + module.UNANSWERED + 1)
+    asked[0].answer(b"late", "")
+    house.settle(guest)
+    assert asker.answers == []
+    assert house.host._guests[0]._questions == {}
+
+
+def test_a_next_door_is_asked_too_and_an_answer_to_the_one_before_is_none(house: House) -> None:
+    guest, asker = house.guest(), Asker(house)
+    asked: list[Question] = []
+    guest.serve("robot/a/srv/x", asked.append)
+    house.settle(guest)
+    asker.ask(b"before")
+    house.settle(guest)
+    house.fall()
+    guest.read()
+    asked[0].answer(b"to nobody", "")
+    house.open()
+    house.settle(guest)
+    asked[0].answer(b"to nobody", "")
+    house.settle(guest)
+    assert asker.answers == []
+    asker.ask(b"now")
+    house.settle(guest)
+    asked[1].answer(b"yes", "")
+    house.settle(guest)
+    assert asker.answers == [(b"yes", "")]
+
+
+def test_whoever_is_behind_a_door_asks_nobody(house: House) -> None:
+    with pytest.raises(BusError, match="asks nobody"):
+        house.guest().ask("robot/a/srv/x", b"", "", 1.0)

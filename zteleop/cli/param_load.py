@@ -1,0 +1,53 @@
+import argparse
+from pathlib import Path
+
+from zteleop.bus.escape import printable
+from zteleop.cli import _options
+from zteleop.cli._params import parameters_of
+from zteleop.errors import BusError, ConfigError, nearest
+from zteleop.text.parameter_text import load, nodes
+
+EXAMPLES = (
+    "zteleop param load actuator actuator.yaml",
+    "zteleop param load archangel/actuator all.yaml --no-use-wildcard",
+)
+LONGEST = 2**20
+"""bytes of a file"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    _options.add(parser)
+    parser.add_argument("node", help="such as archangel/actuator, or actuator with --robot")
+    parser.add_argument("file", type=Path, help="such as zteleop param dump prints it")
+    parser.add_argument(
+        "--no-use-wildcard", action="store_true", help="pass over what is for /** or the like"
+    )
+
+
+def run(arguments: argparse.Namespace) -> None:
+    text = _read(arguments.file)
+    with parameters_of(arguments) as node:
+        wanted = load(text, node.name, wildcards=not arguments.no_use_wildcard)
+        if not wanted:
+            near = nearest(node.name, nodes(text))
+            raise ConfigError(f"{arguments.file} has no parameters of {node.name}; {near}")
+        results = node.set(wanted)
+    failed = [result.reason for result in results if not result.successful]
+    for parameter, result in zip(wanted, results, strict=True):
+        if result.successful:
+            print(printable(f"Set parameter {parameter.name} successful"))
+    if failed:
+        raise BusError("Setting parameter failed: " + "; ".join(failed))
+
+
+def _read(path: Path) -> str:
+    try:
+        with path.open("rb") as file:
+            data = file.read(LONGEST + 1)
+        if len(data) > LONGEST:
+            raise ConfigError(f"{path}: expected at most {LONGEST} bytes, found more")
+        return data.decode()
+    except OSError as error:
+        raise ConfigError(f"cannot read {path}: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise ConfigError(f"{path}: expected a text in UTF-8") from None
