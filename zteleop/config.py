@@ -102,8 +102,9 @@ def parse(text: bytes, name: str = "settings") -> Config:
     except (msgspec.DecodeError, ValueError, RecursionError) as error:
         words, _, where = str(error).partition(" (at line ")
         at = f":{where.rstrip(')').replace(', column ', ':')}" if where[:1].isdecimal() else ""
+        quotes = " (text needs quotes)" if words == "Invalid value" else ""
         raise ConfigError(
-            f"{name}{at}: not TOML: {words}; what else is wrong shows once this is right"
+            f"{name}{at}: not TOML: {words}{quotes}; what else is wrong shows once this is right"
         ) from None
 
 

@@ -115,7 +115,7 @@ TABLE: dict[State, dict[str, State | None]] = {
         "act no more": "operator idle",
         "depart": "link lost",
     },
-    "link lost": SAME | CALLED | AGAIN | ANEW | {"let go": "idle"},
+    "link lost": SAME | CALLED | AGAIN | ANEW | {"let go": "idle", "act no more": "idle"},  # which takes 5 s
     "operator idle": SAME | CALLED | AGAIN | ANEW | {"let go": "idle", "depart": "link lost"},
     "starting": SAME | CALLED | {"armed": "idle", "pause": None},
     "fault": SAME | {"recover": "idle"},

@@ -81,7 +81,8 @@ def in_order(text: str, *facts: str) -> None:
 def test_a_sender_that_falls_silent_is_told_with_all_that_it_did(bench: Accident) -> None:
     bench.drive()
     header, *lines = bench.file("link-lost")
-    assert (header["robot"], header["why"]) == (bench.rig.robot, "keyboard has been silent for 0.3 s")
+    assert header["robot"] == bench.rig.robot
+    assert re.fullmatch(r"keyboard \w{4} has been silent for 0.3 s", header["why"])
     keys = {line["key"].removeprefix(f"robot/{bench.rig.robot}/") for line in lines}
     assert {"pwm/keyboard", "beat", "drive_status", "vehicle", "why", "watchdog"} <= keys
     assert [line["at"] for line in lines] == sorted(line["at"] for line in lines)
@@ -95,7 +96,8 @@ def test_a_sender_that_falls_silent_is_told_with_all_that_it_did(bench: Accident
         f"keyboard {bench.pwm.sender[-4:]} begins: steering 390, throttle 400",
         f"driving: keyboard {bench.pwm.sender[-4:]} drives",
         f"keyboard {bench.pwm.sender[-4:]} says its last word (20 a second until then)",
-        "0.00 s  link lost: keyboard has been silent for 0.3 s   <- written because of this",
+        "0.00 s  link lost: keyboard ",
+        "has been silent for 0.3 s   <- written because of this",
         "pulses at rest: steering 375, throttle 370",
     )
 

@@ -165,7 +165,7 @@ def test_u_raises_the_speed_shown_and_moves_nothing(rig: Rig, held: Terminal) ->
 
 def test_without_an_actuator_the_screen_says_so_and_what_was_pressed_never_drives(own: Rig) -> None:
     keyboard = own.keyboard()
-    keyboard.shows("no actuator heard on robot bench (no robot is heard here); start `zteleop")
+    keyboard.shows(f"no actuator heard on robot bench (nothing answers at {own.endpoint}: is the")
     keyboard.type(LEFT + UP)
     keyboard.shows("asked     [390, 374]  not obeyed", f"{OUTPUT}[-, -]")
     own.actuator()

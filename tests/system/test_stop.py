@@ -227,9 +227,10 @@ def test_a_robot_that_nobody_reaches_is_an_alarm_with_what_to_do(rig: Rig) -> No
     keyboard.shows("asking bench to stop")
     assert shell.ends() == 1
     assert shell.text == (
-        "bench does not answer so far, and is asked on; no robot is heard here\n"
+        f"bench does not answer so far, and is asked on; nothing answers at {rig.endpoint}: "
+        "is the address right, and the robot on?\n"
         "zteleop stop: bench has not acknowledged the stop within 2 s: "
-        "cut its power, or run zteleop neutral on it"
+        "cut its power, or run zteleop neutral --robot bench on it"
     )
     keyboard.shows("bench has not acknowledged the stop within 2 s: cut its power")
     keyboard.type("q")

@@ -146,7 +146,7 @@ def test_echo_gives_up_after_its_timeout(rig: Rig) -> None:
     ("topic", "words"),
     [
         ("bench/odmo", "bench/odmo: nobody publishes it; did you mean odom?"),
-        ("bench/odom", "bench/odom: nobody publishes it yet"),
+        ("bench/odom", "bench/odom: nobody publishes it now"),
         ("/bensh/odom", "bensh/odom: nobody publishes it; robot bensh is not heard; heard here: bench"),
     ],
 )
@@ -198,7 +198,7 @@ def test_a_second_simulation_of_a_robot_is_refused(rig: Rig) -> None:
 
 def test_a_simulation_says_that_nobody_moves_it(rig: Rig) -> None:
     sim = rig.run("sim", "--robot", "lonely", "--no-multicast-scouting", "-e", rig.endpoint)
-    sim.says("waits for pulses: no actuator is heard; start zteleop actuator --robot lonely")
+    sim.says("waits for pulses: no actuator of lonely is heard (heard here: bench); start zteleop actuator")
 
 
 def test_echo_prints_a_type_that_nobody_knows(rig: Rig, stranger: zenoh.Session) -> None:
@@ -409,4 +409,7 @@ def test_check_says_when_there_is_no_file(rig: Rig) -> None:
 
 def test_pub_says_when_no_robot_answers(lost: Process) -> None:
     assert lost.ends() == 1
-    assert lost.text == "zteleop pub: robot ghost does not answer; is its actuator on? heard here: bench"
+    assert lost.text == (
+        "zteleop pub: waits for ghost; heard here: bench\n"
+        "zteleop pub: robot ghost does not answer; is its actuator on? heard here: bench"
+    )

@@ -94,12 +94,12 @@ def test_what_the_watchdog_sees_can_be_asked(rig: Rig) -> None:
         why = rig.result("why", *rig.bus_options())
     assert (seen.returncode, seen.stderr, seen.stdout.count("\n")) == (0, "", 1)
     assert seen.stdout.startswith(f"bench  {watching}")
-    assert "sees pulses that move, and as far as it hears, somebody may drive" in seen.stdout
+    assert "sees pulses that move, and has heard commands that allow motion" in seen.stdout
     lines = why.stdout.splitlines()
     assert re.fullmatch(r"bench is driving: keyboard \w{4} drives", lines[0])
     names = [line.split()[0] for line in lines[1:]]
-    assert names == ["operator", "gate", "mux", "rest", "cap", "limiter", "wheels", "watchdog"]
-    assert watching in lines[-1]
+    assert names == ["operator", "gate", "mux", "rest", "cap", "limiter", "wheels", "watchdog", "at"]
+    assert watching in lines[-2]
 
 
 def test_nobody_there_is_said_within_seconds(rig: Rig) -> None:
@@ -123,7 +123,10 @@ def test_neutral_brings_a_chip_to_rest_that_both_processes_left_driving(rig: Rig
     bench.watchdog.ends()
     done = rig.result("neutral", "--robot", "bench")
     assert (done.returncode, done.stderr) == (0, "")
-    assert done.stdout == "at rest: throttle 1510 us = 370 ticks, steering 1530 us = 375 ticks\n"
+    assert done.stdout == (
+        f"bench at rest, in the simulated chip {rig.chip}: "
+        "throttle 1510 us = 370 ticks, steering 1530 us = 375 ticks\n"
+    )
 
 
 def test_a_chip_that_browns_out_is_repaired_through_neutral(rig: Rig) -> None:

@@ -26,7 +26,6 @@ ADVICE: dict[str, str] = {
     Refusal.STALE: "look at the link, and keep every handler shorter than 0.3 s",
     Refusal.REPLAYED: "publish from one place",
     Refusal.OPERATOR_IDLE: "act again",
-    Refusal.HELD: "wait until that one lets go, then begin anew",
 }
 """What to do, where the robot's own words are not enough."""
 

@@ -75,6 +75,11 @@ def resolve(text: str, robot: str | None) -> Name:
     return Name(robot_name(parts[0]), "/".join(chunk(part, "a topic's name") for part in path))
 
 
+def as_typed(text: str, robot: str) -> str:
+    """Return a topic of a robot by the name that somebody gave it, an alias perhaps."""
+    return text.strip("/").removeprefix("robot/").removeprefix(f"{robot}/")
+
+
 def known_as(path: str) -> str:
     """Return the known topic that somebody must have meant; nothing for a name of one's own."""
     from difflib import get_close_matches

@@ -7,7 +7,7 @@ from zteleop.bus import presence
 from zteleop.bus.answer import Answer
 from zteleop.bus.log import LEVELS, NodeLog
 from zteleop.bus.membership import Membership
-from zteleop.bus.names import Name, chunk, known_as, resolve, robot_name
+from zteleop.bus.names import Name, as_typed, chunk, known_as, resolve, robot_name
 from zteleop.bus.parameters import Bounds, Declared, Parameters
 from zteleop.bus.publisher import Publisher
 from zteleop.bus.service import ANSWERED_WITHIN, Services, call
@@ -101,7 +101,7 @@ class Node:
         self._notice_typo(topic, "publishes {}, which no robot hears")
         if not about.command:
             return Publisher(self.membership.outlet(name, kinds, about.urgent), kinds)
-        return self._command_publisher(name, kinds, source, wait)
+        return self._command_publisher(name, kinds, source, wait, as_typed(topic, name.robot))
 
     def _notice_typo(self, topic: str, words: str) -> None:
         """Ask whoever names a topic that is nearly a known one; not who writes the robot's name as well."""
@@ -111,11 +111,11 @@ class Node:
             self.log.warn(f"{words.format(topic)}; did you mean {near}?")
 
     def _command_publisher(
-        self, name: Name, kinds: tuple[type[M], ...], source: str, wait: bool
+        self, name: Name, kinds: tuple[type[M], ...], source: str, wait: bool, said: str
     ) -> Publisher[M]:
         """Return a sender of commands, which proves that each is new and hears whether it is obeyed."""
-        said, about = name.path, topic_of(name.path)  # the log speaks of the topic as the program does
-        if said == about.name:
+        about = topic_of(name.path)
+        if name.path == about.name:
             name = Name(name.robot, f"{about.name}/{chunk(source, 'a source')}")
         heard = self.membership.heard(name.robot)
         found = heard.wait() if wait else True

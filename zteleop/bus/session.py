@@ -1,6 +1,6 @@
 """What a node needs of whatever carries its messages: zenoh, or the door that speaks it for a robot."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple, Protocol, Self
 
 from zteleop.bus.loop import Loop
@@ -86,6 +86,9 @@ class Session(Protocol):
     def advertise(self, key: str, urgent: bool) -> Outlet:
         """Return what says bytes under a key; what is urgent overtakes the rest."""
 
+    def unreached(self) -> Sequence[str]:
+        """Return the endpoints it was to connect to, where nobody answers at any of them so far."""
+
     def declare_token(self, key: str) -> None:
         """Stand for something until this session ends."""
 
@@ -129,4 +132,5 @@ def open_session(
     from zteleop.bus.zenoh_open import open_zenoh  # not what reads settings needs it
     from zteleop.bus.zenoh_session import ZenohSession
 
-    return ZenohSession(open_zenoh(settings, settle=settle, door=door, patient=patient))
+    opened = open_zenoh(settings, settle=settle, door=door, patient=patient)
+    return ZenohSession(opened, settings.connect)

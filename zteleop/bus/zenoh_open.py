@@ -152,4 +152,7 @@ def _words(settings: BusSettings, error: zenoh.ZError) -> str:
     if settings.mode == "client":
         where = ", ".join(settings.connect) or "by multicast"
         return f"no router found ({where}); is the robot on, and its address right? ({reason})"
+    if "already in use" in reason and settings.listen:
+        where = ", ".join(settings.listen)
+        return f"cannot listen at {where}: already in use by another process; end that, or --listen elsewhere"
     return f"cannot open the bus: {reason}"

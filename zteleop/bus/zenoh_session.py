@@ -1,7 +1,7 @@
 """A session of zenoh as keys and bytes; only this file, `zenoh_open` and `linger` know zenoh."""
 
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from typing import Any, Protocol, Self
 
@@ -30,8 +30,9 @@ class Undeclarable(Protocol):
 class ZenohSession:
     """A session of zenoh, as a node wants it, and as the door does."""
 
-    def __init__(self, zenoh_session: zenoh.Session) -> None:
+    def __init__(self, zenoh_session: zenoh.Session, connect: Sequence[str] = ()) -> None:
         self.zenoh = zenoh_session
+        self._connect = connect
         self._kept: list[Undeclarable] = []
 
     def subscribe(self, key: str, depth: int) -> "ZenohRing":
@@ -57,6 +58,10 @@ class ZenohSession:
                     express=urgent,
                 )
             )
+
+    def unreached(self) -> Sequence[str]:
+        there = [*self.zenoh.info.peers_zid(), *self.zenoh.info.routers_zid()]
+        return () if there else self._connect
 
     def declare_token(self, key: str) -> None:
         self._kept.append(self.stand(key))

@@ -59,8 +59,14 @@ GROUPS = {
 }
 """verbs that are typed behind a word, as those who know ros2 do; those of topics also without it"""
 ELSEWHERE = {
+    "action": "robots here have no actions: zteleop list, zteleop service list",
     "bag": "a robot keeps its last minute: zteleop blackbox",
+    "component": "each verb is a process of its own: zteleop up starts several",
     "daemon": "none is needed: each verb asks the bus itself",
+    "multicast": "zteleop doctor looks whether others are found",
+    "pkg": "there are no packages: a program is any Python file",
+    "rosbag": "a robot keeps its last minute: zteleop blackbox",
+    "wtf": "zteleop doctor says what hinders it here",
     "launch": "zteleop up starts what [launch] of config.toml names",
     "run": "a program runs by its own name; zteleop keyboard drives",
 }
@@ -159,5 +165,5 @@ def _unknown(verb: str) -> str:
         return f"no verb {verb!r}; {ELSEWHERE[verb]}"
     if verb.partition(" ")[0] in GROUPS:
         return f"no verb {verb!r}; there are {', '.join(_grouped(verb.partition(' ')[0]))}"
-    near = get_close_matches(verb, VERBS, 1)
+    near = get_close_matches(verb, [*VERBS, *GROUPS], 1)
     return f"no verb {verb!r}; " + (f"did you mean {near[0]}?" if near else f"known: {', '.join(VERBS)}")

@@ -1,9 +1,11 @@
 """Who speaks and who hears on the bus, in words for whoever waits for them."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
+from zteleop.bus import presence
 from zteleop.bus.names import Name
 from zteleop.bus.presence import Endpoint, Kind, process
+from zteleop.bus.session import Session
 from zteleop.bus.topics import TOPICS, topic_of
 from zteleop.errors import nearest
 
@@ -18,15 +20,18 @@ def by_topic(endpoints: Iterable[Endpoint]) -> dict[str, list[Endpoint]]:
 
 def members(name: Name, kind: Kind, endpoints: Iterable[Endpoint]) -> list[Endpoint]:
     """Return who publishes a topic, or who hears it."""
+    return [one for one in endpoints if (one.robot, one.kind) == (name.robot, kind) and meets(name, one)]
+
+
+def meets(name: Name, one: Endpoint) -> bool:
+    """Say whether an endpoint is of a topic: of a command's plain name all sources are, else that one."""
     topic = topic_of(name.path).name
-    return [
-        one
-        for one in endpoints
-        if (one.robot, one.kind, topic_of(one.topic).name) == (name.robot, kind, topic)
-    ]
+    if topic_of(one.topic).name != topic:
+        return False
+    return name.path in (topic, one.topic) or one.topic in (topic, f"{topic}/**")
 
 
-def why_silent(name: Name, endpoints: Iterable[Endpoint]) -> str:
+def why_silent(name: Name, endpoints: Iterable[Endpoint], unreached: Sequence[str] = ()) -> str:
     """Return who says nothing on a topic, or which topic may have been meant."""
     endpoints = list(endpoints)
     if speakers := members(name, "pub", endpoints):
@@ -34,24 +39,31 @@ def why_silent(name: Name, endpoints: Iterable[Endpoint]) -> str:
             f"{_people(speakers)} {_verb('publish', speakers)} it, and said nothing so far"
             f"{_instead(name, speakers, endpoints)}"
         )
-    return f"nobody publishes it{_others(name, 'pub', endpoints)}"
+    return f"nobody publishes it{_others(name, 'pub', endpoints, unreached)}"
 
 
-def who_hears(name: Name, endpoints: Iterable[Endpoint]) -> str:
+def who_hears(name: Name, endpoints: Iterable[Endpoint], unreached: Sequence[str] = ()) -> str:
     """Return who hears a topic, or which topic may have been meant."""
     endpoints = list(endpoints)
     if hearers := members(name, "sub", endpoints):
         return f"{_people(hearers)} {_verb('hear', hearers)} it"
-    return f"nobody hears it{_others(name, 'sub', endpoints)}"
+    return f"nobody hears it{_others(name, 'sub', endpoints, unreached)}"
 
 
-def who_is_here(robots: Iterable[str], wanted: str = "") -> str:
+def here(session: Session, wanted: str | None) -> str:
+    """Return which robots have an actuator that is heard, where the one that is wanted has none."""
+    return who_is_here(presence.robots(session), wanted or "", session.unreached())
+
+
+def who_is_here(robots: Iterable[str], wanted: str = "", unreached: Sequence[str] = ()) -> str:
     """Return which robots could have been meant, where the one that is wanted is not heard."""
     from difflib import get_close_matches
 
     found = sorted(set(robots))
+    if not found and unreached:
+        return f"nothing answers at {', '.join(unreached)}: is the address right, and the robot on?"
     if not found:
-        return "no robot is heard here"
+        return "no actuator is heard here"
     near = get_close_matches(wanted, found, 1)
     return f"heard here: {', '.join(found)}" + (f"; did you mean {near[0]}?" if near else "")
 
@@ -67,14 +79,14 @@ def _instead(name: Name, speakers: list[Endpoint], endpoints: list[Endpoint]) ->
     return f"; it may speak on {' or '.join(others)} instead" if others else ""
 
 
-def _others(name: Name, kind: Kind, endpoints: list[Endpoint]) -> str:
+def _others(name: Name, kind: Kind, endpoints: list[Endpoint], unreached: Sequence[str]) -> str:
     others = [one for one in endpoints if one.process != process()]
     robots = {one.robot for one in others if one.kind == "pub"}
     if name.robot not in robots:
-        return f"; robot {name.robot} is not heard; {who_is_here(robots, name.robot)}"
+        return f"; robot {name.robot} is not heard; {who_is_here(robots, name.robot, unreached)}"
     topics = {topic_of(one.topic).name for one in others if (one.robot, one.kind) == (name.robot, kind)}
     if topic_of(name.path).types or not topics:
-        return " yet"
+        return " now"
     return f"; {nearest(name.path, topics | TOPICS.keys())}"
 
 

@@ -90,15 +90,15 @@ def _after_verb(before: list[str], last: str) -> Iterable[str]:
     if last.startswith("-"):
         return (*OPTIONS_OF_ALL, *(name for name in places.options if name.startswith("--")))
     place = places.at(typed)
-    return _values(place, typed) if place else ()
+    return _values(place, typed, last) if place else ()
 
 
-def _values(place: Place, typed: list[str]) -> Iterable[str]:
+def _values(place: Place, typed: list[str], last: str) -> Iterable[str]:
     """Return what may stand in one place of a verb."""
     if place.choices:
         return place.choices
     if place.dest in ("topic", "topics"):
-        return _on_the_bus(typed, lambda graph: [name.removeprefix("/") for name in graph.topics()])
+        return _on_the_bus(typed, lambda graph: _topics(graph, last))
     if place.dest in ("robot", "named"):
         return _on_the_bus(typed, lambda graph: {node.robot for node in graph.nodes})
     if place.dest == "service":
@@ -108,6 +108,17 @@ def _values(place: Place, typed: list[str]) -> Iterable[str]:
     if place.dest == "node":
         return _on_the_bus(typed, lambda graph: [f"/{node.robot}/{node.node}" for node in graph.nodes])
     return _types(place.dest)
+
+
+def _topics(graph: Any, last: str) -> Iterable[str]:
+    """Return topics in the form that was begun: with a slash, with a robot, or of the robot that is meant."""
+    names: list[str] = [*graph.topics()]
+    if last.startswith("/"):
+        return names
+    with_robot = [name.removeprefix("/") for name in names]
+    own = f"{graph.robot}/"
+    plain = [name.removeprefix(own) for name in with_robot if name.startswith(own)]
+    return with_robot if not last or any(name.startswith(last) for name in with_robot) else plain
 
 
 def _types(dest: str) -> Iterable[str]:

@@ -17,7 +17,10 @@ class Draft(Generic[M]):
 
     def __init__(self, kind: type[M], text: str) -> None:
         self._kind = kind
-        self._values = yaml_text.load(text)
+        values = yaml_text.load(text)
+        if isinstance(values, str) and ":" in values:  # in quotes, as `interface proto` prints it
+            values = yaml_text.load(values)
+        self._values = values
         self._message = fill(kind, dated(self._values, {"sec": 0, "nanosec": 0}))
         self._has_date = dated(self._values, None) != self._values
 

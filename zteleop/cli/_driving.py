@@ -3,10 +3,10 @@
 from collections.abc import Callable, Mapping
 from typing import Protocol, Self
 
-from zteleop.bus import clock, presence
+from zteleop.bus import clock
 from zteleop.bus.lane.call import Call
 from zteleop.bus.node import Node
-from zteleop.cli._company import who_is_here
+from zteleop.cli._company import here
 from zteleop.cli._painter import HEARD_WITHIN, Painter, Shown
 from zteleop.config import Config
 from zteleop.control.report import to_vehicle
@@ -64,8 +64,7 @@ def drive_at_terminal(
         paint(View())
         vehicle = find_vehicle(node, settings)
         if not node.membership.heard().vehicle:
-            here = presence.robots(node.membership.session)
-            paint.known = known._replace(others=who_is_here(here, known.robot))
+            paint.known = known._replace(others=here(node.membership.session, known.robot))
         device.settle(clock.now)  # once more: what was typed while nobody looked
 
         def show(view: View) -> None:

@@ -23,14 +23,13 @@ class Graph(NamedTuple):
     robot: str | None
     services: list[Endpoint] = []
     with_parameters: list[Member] = []
+    unreached: Sequence[str] = ()
+    """endpoints at which nobody answers, where nobody does at any"""
 
     def topic(self, text: str) -> tuple[Name, list[Endpoint]]:
         """Return a topic and who publishes or hears it; raises BusError when nobody does."""
         name = resolve(text, self.robot)
-        topic = topic_of(name.path).name
-        found = [
-            one for one in self.endpoints if (one.robot, topic_of(one.topic).name) == (name.robot, topic)
-        ]
+        found = [one for one in self.endpoints if one.robot == name.robot and _company.meets(name, one)]
         if not found:
             raise BusError(f"Unknown topic '/{name}'; {self._instead(name)}")
         return name, found
@@ -67,7 +66,9 @@ class Graph(NamedTuple):
         """Return what somebody may have meant who asked for a topic that nobody has."""
         robots = {one.robot for one in self.endpoints}
         if name.robot not in robots:
-            return f"robot {name.robot} is not heard; {_company.who_is_here(robots, name.robot)}"
+            return (
+                f"robot {name.robot} is not heard; {_company.who_is_here(robots, name.robot, self.unreached)}"
+            )
         if topic_of(name.path).types:
             return "nobody publishes it, or hears it, yet"
         return nearest(
@@ -79,6 +80,8 @@ class Graph(NamedTuple):
         robots = {one.robot for one in self.nodes}
         if robot and robots:
             return f"robot {robot} is not heard; {_company.who_is_here(robots, robot)}"
+        if self.unreached:
+            return f"nobody is on the bus; {_company.who_is_here((), '', self.unreached)}"
         return "nobody is on the bus; start one with: zteleop demo, or zteleop actuator"
 
     def topics(self) -> dict[str, list[Endpoint]]:
@@ -133,4 +136,5 @@ def look(session: Session, selected: str | None) -> Graph:
         robot,
         presence.services(session),
         presence.with_parameters(session),
+        session.unreached(),
     )

@@ -16,6 +16,10 @@ from zteleop.cli import _company, _options
 
 DEPTH = 1000
 """messages that wait for whoever looks at them; of a flood the oldest are lost"""
+MOST_COMPLAINTS = 100
+"""of one run; a flood of nonsense has no more to say"""
+GONE_AFTER = 2.0
+"""s of silence after which it looks whether anybody says something still"""
 TELL_AFTER = 1.0
 """s of silence at the start until it says for whom it waits"""
 
@@ -25,6 +29,19 @@ class Arrival(NamedTuple):
 
     at: float
     sample: Sample
+
+
+class Complaints:
+    """Tells each sentence once, however often there is reason for it."""
+
+    def __init__(self) -> None:
+        self._told: set[str] = set()
+
+    def tell(self, words: str) -> None:
+        """Tell it on stderr, if it is new; of many that differ only the first."""
+        if words not in self._told and len(self._told) < MOST_COMPLAINTS:
+            self._told.add(words)
+            print(printable(words), file=sys.stderr, flush=True)
 
 
 class Listening:
@@ -39,6 +56,8 @@ class Listening:
         self._deliveries: list[Delivery] = []
         self._silent: dict[str, Name] = {}
         """the topics that have said nothing yet, by their names"""
+        self._heard: dict[str, tuple[Name, float]] = {}
+        """those that have, and when"""
 
     def hear(self, name: Name, handler: Callable[[Arrival], object]) -> None:
         """Hand over whatever is said on a topic; of a command topic, by every source."""
@@ -48,6 +67,7 @@ class Listening:
 
         def take(arrival: Arrival) -> None:
             self._silent.pop(str(name), None)
+            self._heard[str(name)] = name, arrival.at
             handler(arrival)
 
         inbox = _Inbox(self._session.subscribe(key, DEPTH))
@@ -58,21 +78,38 @@ class Listening:
         """Hear until the loop is stopped."""
         if self.patient:
             self.loop.alarm(self._tell).ring_at(clock.now() + TELL_AFTER)
+            self.loop.every(GONE_AFTER, self._notice_end)
         self.loop.run()
 
     def endpoints(self) -> list[presence.Endpoint]:
         """Return what every robot's nodes publish and hear now."""
         return presence.endpoints(self._session)
 
+    def unreached(self) -> Sequence[str]:
+        """Return the endpoints at which nobody answers, where nobody does at any."""
+        return self._session.unreached()
+
     def why_silent(self, name: Name) -> str:
         """Return who says nothing on a topic, or which topic may have been meant."""
-        return printable(f"{name}: {_company.why_silent(name, self.endpoints())}")
+        words = _company.why_silent(name, self.endpoints(), self._session.unreached())
+        return printable(f"{name}: {words}")
 
     def close(self) -> None:
         """Hear no more; the session must be closed first."""
         for delivery in self._deliveries:
             delivery.close()
         self.loop.close()
+
+    def _notice_end(self) -> None:
+        """Tell, once, of a topic that nobody says any more: what it said last is no longer so."""
+        now = clock.now()
+        ended = [(name, at) for name, at in self._heard.values() if now - at > GONE_AFTER]
+        endpoints = self.endpoints() if ended else []
+        for name, at in ended:
+            if not _company.members(name, "pub", endpoints):
+                words = f"{name} has been silent for {now - at:.0f} s, and nobody publishes it any more"
+                print(printable(f"zteleop {self._verb}: {words}"), file=sys.stderr, flush=True)
+                del self._heard[str(name)]
 
     def _tell(self) -> None:
         for name in list(self._silent.values()):
@@ -90,15 +127,17 @@ class _Inbox:
 
 @contextmanager
 def listening(
-    verb: str, topics: Sequence[str], arguments: argparse.Namespace
+    verb: str, topics: Sequence[str], arguments: argparse.Namespace, settle: bool = False
 ) -> Iterator[tuple[Listening, list[Name]]]:
     """Join the bus to hear topics; yield the ears, and the topics' names in the order typed.
+
+    With `settle`, once everybody is found.
 
     Raises ConfigError for a name that is none, or could be several robots'.
     """
     settings = _options.load(arguments)
     robots = [_options.robot_of(topic, settings) for topic in topics]
-    with ExitStack() as afterwards, open_session(settings.bus, settle=None in robots) as session:
+    with ExitStack() as afterwards, open_session(settings.bus, settle=settle or None in robots) as session:
         selected = _options.find_robot(session, settings) if None in robots else None
         ears = Listening(verb, session)
         afterwards.callback(ears.close)

@@ -86,12 +86,25 @@ def find_robot(session: Session, settings: Config) -> str:
 
     Raises ConfigError when there are several.
     """
-    if settings.robot:
-        return settings.robot
+    return settings.robot or heard_robot(session) or own_robot()
+
+
+def heard_robot(session: Session) -> str | None:
+    """Return the only robot on the bus; None when there is none, ConfigError when there are several."""
     found = presence.robots(session)
     if len(found) > 1:
         raise ConfigError(f"{len(found)} robots are on the bus: {', '.join(found)}; say --robot NAME")
-    return found[0] if found else config.own_name()
+    return found[0] if found else None
+
+
+def own_robot() -> str:
+    """Return this machine's own robot's name, and say so: nobody has named it."""
+    robot = config.own_name()
+    words = (
+        f"zteleop: no robot is named, and none is heard; {robot} is meant, as this machine's own is called"
+    )
+    print(words, file=sys.stderr, flush=True)
+    return robot
 
 
 def robot_of(topic: str, settings: Config) -> str | None:

@@ -54,7 +54,8 @@ def run(arguments: argparse.Namespace) -> None:
 def _age(header: Header) -> str:
     """Return how long ago it was written: it may tell of another time than the reader thinks."""
     written = datetime.fromisoformat(header.time).replace(tzinfo=UTC)
-    return span(max((datetime.now(UTC) - written) // timedelta(seconds=1), 0) * SECOND)
+    seconds = max((datetime.now(UTC) - written) // timedelta(seconds=1), 0)
+    return f"{seconds} s" if seconds < 60 else span(seconds * SECOND)
 
 
 def _looks_like_a_path(text: str) -> bool:

@@ -1,13 +1,11 @@
 import argparse
-import sys
 import time
 from collections.abc import Iterable, Mapping
 from typing import Any
 
 from zteleop.bus import codec
-from zteleop.bus.escape import printable
 from zteleop.cli import _options, _window
-from zteleop.cli._listening import Arrival, listening
+from zteleop.cli._listening import Arrival, Complaints, listening
 from zteleop.cli._window import Window
 from zteleop.errors import MessageError
 
@@ -27,13 +25,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> None:
     with listening("delay", [arguments.topic], arguments) as (ears, (name,)):
-        delays = Delays(arguments.window)
+        delays, complaints = Delays(arguments.window), Complaints()
 
         def hear(arrival: Arrival) -> None:
             try:
                 delays.hear(arrival, time.time())
             except MessageError as error:
-                print(printable(f"{arrival.sample.key}: {error}"), file=sys.stderr)
+                complaints.tell(f"{arrival.sample.key}: {error}")
 
         def tell() -> None:
             for line in delays.lines():

@@ -8,7 +8,7 @@ from zteleop.bus.names import Name
 from zteleop.bus.session import Sample
 from zteleop.bus.topics import topic_of
 from zteleop.cli import _options
-from zteleop.cli._listening import TELL_AFTER, Arrival, listening
+from zteleop.cli._listening import TELL_AFTER, Arrival, Complaints, listening
 from zteleop.errors import BusError, MessageError
 from zteleop.messages import MESSAGES
 from zteleop.text import paths
@@ -61,20 +61,32 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> None:
     wanted = Wanted(arguments)
     wait, left = arguments.timeout, 1 if arguments.once else arguments.count
+    came = shown = 0
     with listening("echo", [arguments.topic], arguments) as (ears, (name,)):
         wanted.check(name)
         ears.patient = wait is None or wait > TELL_AFTER
 
         def give_up() -> None:
+            if came > shown:
+                raise BusError(f"for {wait:g} s none of what came on {name} was what was asked for")
             raise BusError(f"for {wait:g} s nothing was said on {ears.why_silent(name)}")
+
+        def tell() -> None:
+            if came and not shown:
+                words = f"{came} messages came on {name} so far, and none is what was asked for"
+                print(printable(f"zteleop echo: {words}"), file=sys.stderr, flush=True)
 
         silence = ears.loop.alarm(give_up)
 
         def show(arrival: Arrival) -> None:
-            nonlocal left
+            nonlocal left, came, shown
+            came += 1
+            if not wanted.show(arrival.sample):
+                return
+            shown += 1
             if wait is not None:
                 silence.ring_at(arrival.at + wait)
-            if not wanted.show(arrival.sample) or left is None:
+            if left is None:
                 return
             left -= 1
             if not left:
@@ -83,6 +95,7 @@ def run(arguments: argparse.Namespace) -> None:
         ears.hear(name, show)
         if wait is not None:
             silence.ring_at(clock.now() + wait)
+        ears.loop.alarm(tell).ring_at(clock.now() + TELL_AFTER)
         ears.run()
 
 
@@ -104,6 +117,7 @@ class Wanted:
         self._selection = Selection(
             arguments.type, tuple(map(paths.parse, arguments.field or ())), _filter(arguments.filter)
         )
+        self.complaints = Complaints()
         self._known: dict[str, bool] = {}
         """whether the messages of a type have what is asked for"""
 
@@ -118,7 +132,8 @@ class Wanted:
         try:
             text = self.text(sample)
         except MessageError as error:
-            print(printable(f"{sample.key}: {error}"), file=sys.stderr)
+            words = str(error)
+            self.complaints.tell(words if words.startswith(sample.key) else f"{sample.key}: {words}")
             return False
         if text is None:
             return False

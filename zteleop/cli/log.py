@@ -3,10 +3,11 @@ import sys
 from collections.abc import Iterable
 from os import environ
 
-from zteleop.bus import codec
+from zteleop.bus import clock, codec
 from zteleop.bus.escape import printable
 from zteleop.cli import _options
-from zteleop.cli._listening import Arrival, listening
+from zteleop.cli._company import who_is_here
+from zteleop.cli._listening import TELL_AFTER, Arrival, listening
 from zteleop.errors import MessageError
 from zteleop.messages import Log
 from zteleop.terminal.capabilities import wants_color
@@ -39,7 +40,16 @@ def run(arguments: argparse.Namespace) -> None:
             for line in lines(arrival, least, nodes, color):
                 print(line, flush=True)
 
+        def miss() -> None:
+            robots = {one.robot for one in ears.endpoints() if one.kind == "pub"}
+            if name.robot not in robots:
+                words = (
+                    f"{name.robot} is not heard so far; {who_is_here(robots, name.robot, ears.unreached())}"
+                )
+                print(printable(f"zteleop log: {words}"), file=sys.stderr, flush=True)
+
         ears.hear(name, show)
+        ears.loop.alarm(miss).ring_at(clock.now() + TELL_AFTER)
         ears.run()
 
 

@@ -47,4 +47,8 @@ def run(arguments: argparse.Namespace) -> None:
     except DeviceError as error:
         raise DeviceError(f"neutral was written, but {error}, for it goes on writing") from error
     pulses = calibration.pulses(calibration.neutral_us)
-    print("at rest: " + ", ".join(f"{p.name} {p.pulse_us:.0f} us = {p.duty_ticks} ticks" for p in pulses))
+    where = f"the simulated chip {chip['path']}" if name == "simulated" else f"the chip of {name}"
+    print(
+        f"{robot} at rest, in {where}: "
+        + ", ".join(f"{p.name} {p.pulse_us:.0f} us = {p.duty_ticks} ticks" for p in pulses)
+    )

@@ -15,6 +15,7 @@ from zteleop.bus.publisher import Publisher
 from zteleop.bus.topics import topic_of
 from zteleop.cli import _company, _options
 from zteleop.cli._draft import Draft
+from zteleop.cli._outcome import Outcome
 from zteleop.control.resume import Resume
 from zteleop.control.settings import SOURCES
 from zteleop.errors import BusError, ConfigError, MessageError
@@ -110,6 +111,7 @@ def _say(
     A repeated motion ends with a neutral, a counted one after `stay` s.
     """
     said = 0
+    outcome = Outcome(node, publisher) if publisher.sender else None
     if resume:
         node.subscription("drive_status", DriveStatus, lambda received: resume.heed(received.message))
 
@@ -120,11 +122,13 @@ def _say(
             return
         said += 1
         message = make()
-        print(f"publishing #{said}: {message}\n", flush=True)
         if resume and resume.may(node.membership.heard().refusals, clock.now()):
             node.log.warn("begins anew by itself, as --resume says")
             publisher.let_go()
         publisher.publish(message)
+        print(f"publishing #{said}: {message}\n", flush=True)
+        if outcome:
+            outcome.note(message)
         if said == times:
             node.stop()
 
@@ -132,6 +136,8 @@ def _say(
         node.spin(lasts)
         if said == times:
             node.spin(stay)
+        if outcome:
+            outcome.check()
     finally:
         if said != times:
             publisher.let_go()
@@ -139,14 +145,15 @@ def _say(
 
 def _say_what_comes(node: Node, publisher: Publisher[M], kind: type[M]) -> None:
     """Say each message that comes on standard input, at once; one that is none is told of, and left out."""
-    documents, file, said = Documents(), sys.stdin.fileno(), 0
+    documents, file, said, wrong = Documents(), sys.stdin.fileno(), 0, 0
 
     def say(texts: Iterable[str]) -> None:
-        nonlocal said
+        nonlocal said, wrong
         for text in texts:
             try:
                 publisher.publish(Draft(kind, text).make())
             except MessageError as error:
+                wrong += 1
                 print(printable(f"zteleop pub: {error}"), file=sys.stderr, flush=True)
             else:
                 said += 1
@@ -164,6 +171,8 @@ def _say_what_comes(node: Node, publisher: Publisher[M], kind: type[M]) -> None:
     finally:
         publisher.let_go()
     print(f"said {said}", file=sys.stderr)
+    if wrong and not said:
+        raise MessageError(f"none of what came is a {kind.__name__}")
 
 
 def _is_command(topic: str, robot: str | None) -> bool:
@@ -175,9 +184,15 @@ def _is_command(topic: str, robot: str | None) -> bool:
 def _await_robot(node: Node, publisher: Publisher[Message]) -> bool:
     """Wait until the robot that a command proves its age to has started; BusError when it does not answer."""
     heard = node.membership.heard()
-    if not node.membership.until(lambda: publisher.matched and heard.beat, HEARD_WITHIN):
-        here = _company.who_is_here(presence.robots(node.membership.session), node.robot or "")
-        raise BusError(f"robot {node.robot} does not answer; is its actuator on? {here}")
+
+    def answers() -> bool:
+        return publisher.matched and heard.beat is not None
+
+    if not node.membership.until(answers, TELL_AFTER):
+        here = _company.here(node.membership.session, node.robot)
+        print(printable(f"zteleop pub: waits for {node.robot}; {here}"), file=sys.stderr, flush=True)
+        if not node.membership.until(answers, HEARD_WITHIN - TELL_AFTER):
+            raise BusError(f"robot {node.robot} does not answer; is its actuator on? {here}")
     heard.wait()
     return True
 
@@ -209,4 +224,5 @@ def _hears(node: Node, publisher: Publisher[M], name: Name, wanted: int = 1) -> 
 
 
 def _who_hears(node: Node, name: Name) -> str:
-    return printable(_company.who_hears(name, presence.endpoints(node.membership.session)))
+    session = node.membership.session
+    return printable(_company.who_hears(name, presence.endpoints(session), session.unreached()))

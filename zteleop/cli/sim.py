@@ -6,7 +6,8 @@ from zteleop import config
 from zteleop.bus import clock, presence
 from zteleop.bus.node import Node
 from zteleop.bus.session import Session, open_session
-from zteleop.cli import _options
+from zteleop.cli import _company, _options
+from zteleop.config import Config
 from zteleop.errors import DeviceError
 from zteleop.messages import Odometry
 from zteleop.nodes import simulator
@@ -19,6 +20,8 @@ SPEAKS_WITHIN = 1.0
 """s in which another one is heard, if it moves the same robot"""
 TELL_AFTER = 1.0
 """s until it says that nobody moves it"""
+LOST_AFTER = 1.0
+"""s without a beat, of twenty a second, after which nobody does any more"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -29,12 +32,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> None:
     settings = _options.load(arguments)
-    robot = settings.robot or config.own_name()
-    driver = settings.driver_settings("simulated", robot)
-    with _join(robot, open_session(settings.bus, settle=True)) as node:
+    session = open_session(settings.bus, settle=True)
+    with _join(_robot_of(settings, session), session) as node:
+        robot = node.robot or ""
+        driver = settings.driver_settings("simulated", robot)
         _options.end_with_parent(arguments, node)
         node.log.info(f"moves {robot}, a simulated {arguments.vehicle}, by the pulses in {driver['path']}")
-        node.membership.loop.alarm(lambda: _miss_actuator(node, robot)).ring_at(clock.now() + TELL_AFTER)
+        node.every(TELL_AFTER)(Attendant(node).look)
         simulator.run(node, settings.drive, driver["path"], lambda line: print(line, flush=True))
 
 
@@ -53,6 +57,37 @@ def _join(robot: str, session: Session) -> Iterator[Node]:
         yield node
 
 
-def _miss_actuator(node: Node, robot: str) -> None:
-    if not presence.holders(node.membership.session, robot, "actuator"):
-        node.log.warn(f"waits for pulses: no actuator is heard; start zteleop actuator --robot {robot}")
+def _robot_of(settings: Config, session: Session) -> str:
+    """Return the robot to move: the one named, else the only one on the bus, else this machine's own."""
+    try:
+        return settings.robot or _options.heard_robot(session) or config.own_name()
+    except BaseException:
+        session.close()
+        raise
+
+
+class Attendant:
+    """Says whether anybody moves the car: its actuator comes and goes as it likes."""
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._heard = node.membership.heard()
+        self._there: bool | None = None
+        self._began = clock.now()
+
+    def look(self) -> None:
+        """Say what has changed since the last look."""
+        now = clock.now()
+        there = self._heard.beat is not None and now - self._heard.at < LOST_AFTER
+        if there == self._there or (self._there is None and not there and now - self._began < TELL_AFTER):
+            return
+        was, self._there = self._there, there
+        robot = self._node.robot or ""
+        if there:
+            self._node.log.info(f"the actuator of {robot} is heard, and moves it")
+        elif was:
+            self._node.log.warn(f"the actuator of {robot} is not heard any more; its chip stays as it is")
+        else:
+            here = _company.here(self._node.membership.session, robot)
+            start = f"start zteleop actuator --robot {robot}"
+            self._node.log.warn(f"waits for pulses: no actuator of {robot} is heard ({here}); {start}")

@@ -3,13 +3,11 @@ import sys
 import threading
 import time
 
-from zteleop import config
 from zteleop.bus import clock, presence
 from zteleop.bus.escape import printable
 from zteleop.bus.lane.call import Call
 from zteleop.bus.node import Node
-from zteleop.cli import _options
-from zteleop.cli._company import who_is_here
+from zteleop.cli import _company, _options
 from zteleop.config import Config
 from zteleop.errors import BusError
 from zteleop.messages import DriveStatus
@@ -20,6 +18,8 @@ EXAMPLES = (
     "zteleop stop --release archangel",
 )
 GLANCE = 0.01
+TELL_AFTER = 1.0
+"""s until it says for whom it waits"""
 SOON = 0.6
 """s in which a robot that is there has answered"""
 
@@ -121,9 +121,9 @@ class Stops:
 
     def _ask_who_is_meant(self, node: Node) -> None:
         """Say which robots there are, where one that does not answer is not among them."""
-        robots = presence.robots(node.membership.session)
-        for robot in self._asked.keys() - self._told - set(robots):
-            words = f"{robot} does not answer so far, and is asked on; {who_is_here(robots, robot)}"
+        session = node.membership.session
+        for robot in self._asked.keys() - self._told - set(presence.robots(session)):
+            words = f"{robot} does not answer so far, and is asked on; {_company.here(session, robot)}"
             print(printable(words), file=sys.stderr, flush=True)
 
     def heed(self) -> bool:
@@ -143,11 +143,16 @@ def release(node: Node, robot: str, everybodys: bool = False) -> str:
     """End one's own stops that a robot shows, or everybody's, and return what to tell; BusError when not."""
     statuses = node.subscription(f"/{robot}/drive_status", DriveStatus)
     stopping = Stopping(node, person(), robot)
-    stopping.release(node.membership.until(statuses.newest, ACKNOWLEDGED_WITHIN), clock.now(), everybodys)
+    status = node.membership.until(statuses.newest, TELL_AFTER)
+    if status is None:
+        here = _company.here(node.membership.session, robot)
+        print(printable(f"zteleop stop: waits for {robot}; {here}"), file=sys.stderr, flush=True)
+        status = node.membership.until(statuses.newest, ACKNOWLEDGED_WITHIN - TELL_AFTER)
+    stopping.release(status, clock.now(), everybodys)
     _listen(node, stopping)
     node.membership.until(lambda: stopping.heed(None, clock.now()), 2 * ACKNOWLEDGED_WITHIN)
     if stopping.state != "done":
-        here = who_is_here(presence.robots(node.membership.session), robot) if stopping.unheard else ""
+        here = _company.here(node.membership.session, robot) if stopping.unheard else ""
         raise BusError(f"{stopping.words}; {here}" if here else stopping.words)
     return stopping.words
 
@@ -179,7 +184,7 @@ def _robots(node: Node, settings: Config, every: bool) -> list[str]:
     if len(found) > 1 and not every:
         return _ask(found)
     named = [settings.robot] if settings.robot else []
-    return sorted({*found, *named}) or [config.own_name()]
+    return sorted({*found, *named}) or [_options.own_robot()]
 
 
 def _ask(found: list[str]) -> list[str]:

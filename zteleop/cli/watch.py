@@ -35,7 +35,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> None:
-    with listening("watch", [], arguments) as (ears, _):
+    with listening("watch", [], arguments, settle=True) as (ears, _):
         ears.patient = False
         watched = Watched(ears, _options.load(arguments).robot)
 
@@ -78,13 +78,14 @@ class Watched:
         self._ears = ears
         self._robot = robot
         self._topics: dict[str, list[Endpoint]] = {}
+        self._others: set[str] = set()
         self._traffic: dict[str, Traffic] = {}
 
     def look(self) -> None:
         """Hear what has come, and forget what has gone."""
-        said = [
-            one for one in self._ears.endpoints() if one.kind == "pub" and self._robot in (None, one.robot)
-        ]
+        everybody = [one for one in self._ears.endpoints() if one.kind == "pub"]
+        self._others = {one.robot for one in everybody}
+        said = [one for one in everybody if self._robot in (None, one.robot)]
         self._topics = _company.by_topic(said)
         for topic in self._topics:
             if topic not in self._traffic and len(self._traffic) < MOST:
@@ -100,7 +101,10 @@ class Watched:
         """Return a table of what is said now, or who is missing."""
         if not self._topics:
             where = self._robot or "a robot"
-            return [f"nobody speaks for {where}; start one with: zteleop demo, or zteleop actuator"]
+            unreached = self._ears.unreached()
+            here = _company.who_is_here(self._others, self._robot or "", unreached)
+            start = "start one with: zteleop demo, or zteleop actuator"
+            return [f"nobody speaks for {where}; {here if self._others or unreached else start}"]
         rows = [HEAD, *(self._row(topic, members, now) for topic, members in self._topics.items())]
         widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
         return ["  ".join(map(str.ljust, row, widths)).rstrip() for row in rows]

@@ -4,7 +4,7 @@ import sys
 from zteleop.bus import clock
 from zteleop.bus.escape import printable
 from zteleop.bus.subscription import Received
-from zteleop.cli import _options
+from zteleop.cli import _company, _options
 from zteleop.cli.why import state_of
 from zteleop.errors import BusError
 from zteleop.messages import WatchdogStatus
@@ -14,7 +14,7 @@ EXAMPLES = (
     "zteleop watchdog archangel --once",
 )
 LINE_EVERY = 1.0
-HEARD_WITHIN = 2.0
+HEARD_WITHIN = 1.5
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -42,8 +42,9 @@ def run(arguments: argparse.Namespace) -> None:
         @node.every(HEARD_WITHIN / 4)
         def notice_silence() -> None:
             if clock.now() - heard_at > HEARD_WITHIN:
+                here = _company.here(node.membership.session, node.robot)
                 raise BusError(
-                    f"no watchdog of {node.robot} has been heard for {HEARD_WITHIN:g} s; "
+                    f"no watchdog of {node.robot} has been heard for {HEARD_WITHIN:g} s ({here}); "
                     "if the robot moves, cut its power; else start zteleop actuator"
                 )
 

@@ -1,11 +1,10 @@
 import argparse
 import sys
+from datetime import UTC, datetime
 
-from zteleop.bus import presence
 from zteleop.bus.escape import printable
 from zteleop.bus.node import Node
-from zteleop.cli import _options
-from zteleop.cli._company import who_is_here
+from zteleop.cli import _company, _options
 from zteleop.errors import BusError
 from zteleop.messages import DriveStatus, WatchdogStatus, Why
 
@@ -42,7 +41,7 @@ def answer(node: Node) -> str:
 
     here = ""
     if not node.membership.until(complete, TELL_AFTER) and status is None and dog is None:
-        here = who_is_here(presence.robots(node.membership.session), node.robot or "")
+        here = _company.here(node.membership.session, node.robot)
         print(printable(f"zteleop why: waits for {node.robot}; {here}"), file=sys.stderr, flush=True)
     node.membership.until(complete, HEARD_WITHIN - TELL_AFTER)
     if status is None and dog is None:
@@ -52,13 +51,14 @@ def answer(node: Node) -> str:
     ]
     lines += [f"  {layer.name:9} {layer.says}" for layer in (why.layers if why else [])]
     lines.append(f"  {'watchdog':9} {state_of(dog) if dog else 'is not heard'}")
+    lines.append(f"  {'at':9} {datetime.now(UTC):%Y-%m-%d %H:%M:%S} UTC")
     return "\n".join(map(printable, lines))
 
 
 def state_of(dog: WatchdogStatus) -> str:
     """Return what a watchdog sees, in a line."""
     sees = "pulses that move" if dog.moving else "pulses of rest"
-    permits = "somebody may drive" if dog.allowed else "nobody may drive"
+    permits = "commands that allow motion" if dog.allowed else "no command that allows motion"
     steps = f"{dog.why}, last {dog.silence * 1000:.0f} ms ago" if dog.state == "watching" else dog.why
     restarts = f"; {dog.restarts} restart{'s'[: dog.restarts - 1]}" if dog.restarts else ""
-    return f"{dog.state}: {steps}; sees {sees}, and as far as it hears, {permits}{restarts}"
+    return f"{dog.state}: {steps}; sees {sees}, and has heard {permits}{restarts}"

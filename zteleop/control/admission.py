@@ -9,7 +9,7 @@ from zteleop.control.foreign import Foreigners
 from zteleop.control.gate import Gate, Refusal
 from zteleop.control.hold import PAUSE, Hold, Holds
 from zteleop.control.mux import Claim, Claims, Mux, Silences
-from zteleop.control.proof import NEVER, Proof
+from zteleop.control.proof import NEVER, Proof, called
 from zteleop.control.refusals import RefusedSources
 from zteleop.control.settings import DriveSettings
 from zteleop.control.stop import Latch, stopped_by
@@ -64,6 +64,7 @@ class Admission:
         self.refusals = RefusedSources()
         self.interruption = Interruption()
         self._gone: tuple[str, float] | None = None
+        """who left while it drove, and when"""
         self._drove: int | None = None
         self._selected = now
 
@@ -118,8 +119,11 @@ class Admission:
 
     def resume(self, reason: str, why: str, now: float) -> None:
         """End an interruption that began with `pause`, or with `hold` where nobody can have a right yet."""
-        if self.holds.drop(reason):
-            self.interrupt(why, now, self._settings.deadlines.link_loss)
+        if hold := self.holds.drop(reason):
+            began_with_it = hold.since <= self.interruption.ended  # which is the cause, then
+            self.interrupt(
+                self.interruption.why if began_with_it else why, now, self._settings.deadlines.link_loss
+            )
 
     def free(self, reason: str, now: float) -> None:
         """Drop a reason to rest; whoever drives next must leave neutral after now."""
@@ -141,14 +145,17 @@ class Admission:
         """Let go what a sender held whose process is gone."""
         for claim in self.mux.claims:
             if claim.sender == sender:
-                self._gone = (claim.source, now)
+                self._gone = (_name(claim), now)
         self.mux.release(sender)
 
     def receive(self, source: str, command: Twist | Pwm, proof: Proof | None, now: float) -> Verdict:
         """Judge a command that arrived."""
         verdict = self._hear(source, command, proof, now)
+        sender = proof.sender if proof else 0
         if verdict.refusal:
-            self.refusals.note(source, proof.sender if proof else 0, verdict.refusal, now)
+            self.refusals.note(source, sender, verdict.refusal, now)
+        else:
+            self.refusals.clear(source, sender)
         return verdict
 
     def select(self, now: float) -> Claim | None:
@@ -161,10 +168,22 @@ class Admission:
     def rest(self, now: float) -> tuple[State, str]:
         """Say why the robot rests, where it does."""
         state, why = self._rest(now)
-        if not self.holds and (recent := self.refusals.recent(now, RECENT)):
-            source = max(recent, key=lambda name: recent[name].at)
-            why += f"; {source} is refused: {recent[source].why}"
+        if self.holds:
+            return state, why
+        if state == "link lost" and now - self._last_heard > self._settings.deadlines.link_loss:
+            state, why = "idle", f"nobody drives; {why}"  # nobody has a right to go on any more
+        recent = self.refusals.recent(now, RECENT)
+        if source := max(recent, key=lambda name: recent[name].at, default=None):
+            refused = recent[source]
+            if refused.why is not Refusal.INTERRUPTED:  # which the reason to rest says already
+                why += f"; {called(source, f'{refused.sender:x}')} is refused: {refused.why}"
         return state, why
+
+    @property
+    def _last_heard(self) -> float:
+        """When whoever drove last was heard last, or the last interruption ended."""
+        heard = max((claim.at for claim in self.mux.claims), default=NEVER)
+        return max(heard, self.interruption.ended, self._gone[1] if self._gone else NEVER)
 
     def _drop(self, reason: str) -> Hold | None:
         """Drop a reason to rest; who was refused for it is not refused any more once there is no other."""
@@ -194,16 +213,18 @@ class Admission:
             return held.state, held.why
         newest = max(self.mux.claims, key=lambda claim: claim.at, default=None)
         if newest and newest.at <= (end := self.interruption.ended) and not self.silences.idle(newest, end):
-            return "link lost", f"{self.interruption.why}; {newest.source} goes on with its next act"
+            return "link lost", f"{self.interruption.why}; {_name(newest)} goes on with its next act"
         if newest is None:
-            return ("link lost", f"{self._gone[0]} is gone") if self._gone else ("idle", "nobody drives")
+            gone = f"{self._gone[0]} is gone; the next act drives" if self._gone else ""
+            return ("link lost", gone) if gone else ("idle", "nobody drives")
         silence = self._sources[newest.source].silence
         fell_silent, unheard = newest.at + silence, newest.beat + silence + HEARD_LATE
         if self.silences.idle(newest, min(now, fell_silent, unheard)):  # the first deadline to pass
-            return "operator idle", f"no act on {newest.source} for {now - newest.acted:.1f} s"
+            idle = f"no act on {_name(newest)} for {now - newest.acted:.1f} s"
+            return "operator idle", f"{idle}; the next one drives"
         if now < fell_silent:
-            return "link lost", f"{newest.source} has not heard the robot for {now - newest.beat:.1f} s"
-        return "link lost", f"{newest.source} has been silent for {now - newest.at:.1f} s"
+            return "link lost", f"{_name(newest)} has not heard the robot for {now - newest.beat:.1f} s"
+        return "link lost", f"{_name(newest)} has been silent for {now - newest.at:.1f} s"
 
     def _judge(
         self, source: str, command: Twist | Pwm, proof: Proof | None, moving: bool, now: float
@@ -232,3 +253,7 @@ class Admission:
         if isinstance(command, Pwm):
             return not self._calibration.neutral(command)
         return command.moves
+
+
+def _name(claim: Claim) -> str:
+    return called(claim.source, f"{claim.sender:x}")

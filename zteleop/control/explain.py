@@ -68,7 +68,7 @@ def _gate(seen: Snapshot) -> str:
     for source, refused in seen.refused.items():
         since, ago = seen.now - refused.since, seen.now - refused.at
         often = "once" if refused.times == 1 else f"{refused.times} times in {since:.1f} s"
-        who = called(source, f"{refused.sender:x}") if refused.sender else source
+        who = called(source, f"{refused.sender:x}")
         told[ago <= REFUSES].append(f"{who}: {refused.why} ({often}, last {ago:.1f} s ago)")
     now = f"refuses {'; '.join(told[True]) or 'nobody'}"
     return f"{now}; lately refused {'; '.join(told[False])}" if told[False] else now

@@ -26,7 +26,7 @@ class Refusal(StrEnum):
     BEFORE_RELEASE = "it was moving before the stop was released; let go first, or pause for 2 s"
     BEFORE_REPAIR = "it was moving before the chip's fault was over; let go first, or pause for 2 s"
     INTERRUPTED = "it was said before the robot went on; act once more"
-    HELD = "another sender drives this source, or did when this one began; let go, and begin anew"
+    HELD = "another sender drives this source, or did when this one began; let go, and begin anew after it"
     AT_REST = "the robot is kept at rest; let go, and begin anew when it is free"
     NO_SUCH_CHANNEL = "this vehicle has no steering and throttle; send a twist"
 

@@ -128,7 +128,7 @@ class Judge:
         if self._bad_looks < LOOKS:
             return None
         why = "a stop is in force" if self._must_rest(now) else self._admission.rest(now)[1]
-        return f"its pulses moved although {why}"
+        return f"its pulses moved although {why.partition('; the next ')[0]}"
 
     def _must_rest(self, now: float) -> bool:
         return self._stopped is not None and now - self._stopped > GRACE

@@ -31,8 +31,12 @@ class Proof(NamedTuple):
 
 
 def called(source: str, sender: str) -> str:
-    """Return what people call one sender of a source everywhere; `sender` is in hexadecimal digits."""
-    return f"{source} {sender[-4:].zfill(4)}"
+    """Return what people call one sender of a source everywhere; `sender` is in hexadecimal digits.
+
+    One that cannot prove who it is has none that counts, and is called by its source.
+    """
+    nameless = not sender.strip("0") or sender.startswith("-")
+    return source if nameless else f"{source} {sender[-4:].zfill(4)}"
 
 
 class Prover:

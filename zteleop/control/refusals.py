@@ -40,6 +40,11 @@ class RefusedSources:
         since, times = (last.since, last.times) if last and same else (now, 0)
         self._sources[source] = Refused(sender, why, since, now, times + 1)
 
+    def clear(self, source: str, sender: int) -> None:
+        """Forget what was said to a sender that counts again, or lets go."""
+        if (last := self._sources.get(source)) and last.sender == sender:
+            del self._sources[source]
+
     def forget(self, why: Refusal) -> None:
         """Forget who was refused for a reason that is over."""
         self._sources = {source: last for source, last in self._sources.items() if last.why != why}
@@ -50,10 +55,10 @@ class RefusedSources:
 
 
 class Turned(NamedTuple):
-    """A sender that is refused, why, since when, and when it was last."""
+    """A sender that is refused, or waits, why, since when, and when it was last."""
 
     source: str
-    why: Refusal
+    why: str
     since: float
     at: float
 
@@ -65,7 +70,7 @@ class RefusedSenders:
         self._senders: dict[int, Turned] = {}
         self._told: set[int] = set()
 
-    def note(self, sender: int, source: str, refusal: Refusal | None, now: float) -> None:
+    def note(self, sender: int, source: str, refusal: str | None, now: float) -> None:
         """Remember how a command was judged; None is one that counts."""
         if refusal is None:
             if self._senders:

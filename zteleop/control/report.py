@@ -3,9 +3,11 @@
 from zteleop.control.drive import Drive, Step
 from zteleop.control.evidence import Evidence
 from zteleop.control.explain import slowed, wanted
+from zteleop.control.mux import Claim
+from zteleop.control.proof import called
 from zteleop.control.refusals import Turned
 from zteleop.control.settings import DriveSettings
-from zteleop.control.snapshot import snapshot
+from zteleop.control.snapshot import Snapshot, snapshot
 from zteleop.messages import DriveStatus, Refusals, Refused, Vehicle
 
 
@@ -48,6 +50,17 @@ def status(drive: Drive, step: Step, chip: Evidence, now: float, unkept: str = "
         slowed=slowed(seen),
         released=drive.admission.latch.released,
     )
+
+
+def overridden(seen: Snapshot, claim: Claim) -> str | None:
+    """Return why a claim that counts does not drive; None where it does, or nobody does."""
+    driver = seen.step.claim
+    if driver is None or driver.sender == claim.sender:
+        return None
+    sources = seen.settings.known_sources
+    ranks = f"priority {sources[driver.source].priority} over {sources[claim.source].priority}"
+    who = called(driver.source, f"{driver.sender:x}")
+    return f"{who} drives, with {ranks}; this one is obeyed when that one is done"
 
 
 def refusals(drive: Drive, refused: dict[int, Turned], now: float) -> Refusals:

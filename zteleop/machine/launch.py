@@ -149,7 +149,9 @@ class Running:
             self.done = True
             self._tell(self.name, "is done")
         elif code == USAGE:
-            self._fail(code, "was called wrongly, and is not started again", now)
+            self._fail(
+                code, f"ended with {USAGE}, as what is called wrongly does, and is not started again", now
+            )
         else:
             pause = self._back_off.pause(now - self._started)
             self._due = now + pause

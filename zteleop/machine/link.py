@@ -87,7 +87,9 @@ class ActuatorEnd(End):
         """Return what arrived; raises DeviceError when the watchdog is gone, or cannot be understood."""
         data = self._read()
         if data is None:
-            raise DeviceError("the watchdog is gone; the actuator does not run without one")
+            raise DeviceError(
+                "the watchdog is gone; the actuator does not run without one: start zteleop actuator again"
+            )
         self._rest += data
         hears, cut, stops = None, False, []
         while self._rest:

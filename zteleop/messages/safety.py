@@ -46,8 +46,8 @@ class WatchdogStatus(Message):
 
     ros_type: ClassVar[str] = "zteleop_msgs/msg/WatchdogStatus"
 
-    state: Literal["starting", "watching", "resting"]
-    """resting: the actuator is gone and the watchdog keeps the chip at neutral."""
+    state: Literal["starting", "watching", "resting", "ended"]
+    """resting: the actuator is gone and the watchdog keeps the chip at neutral; ended: its last word."""
     why: str
     silence: float
     """s since the actuator last reported a step."""

@@ -6,7 +6,7 @@ from zteleop.bus.subscription import Received
 from zteleop.bus.topics import TOPICS
 from zteleop.control.command import to_command
 from zteleop.control.deadlines import STEP_EVERY, WATCHDOG_SILENCE
-from zteleop.control.drive import Drive
+from zteleop.control.drive import Drive, Step
 from zteleop.control.proof import called
 from zteleop.control.settings import DriveSettings
 from zteleop.control.standing import NOBODY, Standing, go_on, stand
@@ -177,7 +177,7 @@ class Actuator:
         self._output.write(self._step.pulse_us, now)
         stopped = bool(self._drive.admission.latch.stops)
         self._link.report(Report(now, stand(self._drive, self._since), stopped))
-        if self._step.state != before.state:
+        if (self._step.state, _driver(self._step)) != (before.state, _driver(before)):
             self._node.log.info(f"{self._step.state}: {self._step.why}")
             self._journal.event("state", state=self._step.state, why=self._step.why)
             self._state.tell(
@@ -243,3 +243,7 @@ class Actuator:
         now = clock.now()
         self._drive.admission.withdraw(sender, now)
         self._step_soon(now)  # strangers may come and go by the thousand
+
+
+def _driver(step: Step) -> int | None:
+    return step.claim.sender if step.claim else None

@@ -3,7 +3,8 @@
 from zteleop.bus.node import Node
 from zteleop.control.deadlines import LINK_LOSS
 from zteleop.control.hold import HOLDS
-from zteleop.messages import DriveStatus, Log, Odometry, Vehicle
+from zteleop.messages import DriveStatus, Log, Odometry, Vehicle, WatchdogStatus
+from zteleop.screen.view import Unmanned
 
 OWN = ("watchdog", "actuator", "blackbox")
 """The robot's processes; what other operators' programs complain of is theirs to read."""
@@ -16,25 +17,37 @@ ODOM_LASTS = 1.0
 ANEW = "the robot was started anew; whoever drove must begin anew as well"
 
 
+def _unmanned(dog: WatchdogStatus, robot: str) -> Unmanned | None:
+    if dog.state == "ended":
+        return Unmanned("ended", f"{dog.why}; `zteleop actuator --robot {robot}` starts it again")
+    if dog.state == "resting":
+        return Unmanned("restarting", f"{dog.why}; the chip is kept at rest, and another starts")
+    return None
+
+
 class Sight:
     """One robot: whether it is heard, is the same, rests, and what it says of itself."""
 
     def __init__(self, node: Node) -> None:
+        self._robot = node.robot or ""
         self._heard = node.membership.heard()
         self._statuses = node.subscription("drive_status", DriveStatus)
         self._odoms = node.subscription("odom", Odometry)
         self._logs = node.subscription("log", Log)
+        self._watchdogs = node.subscription("watchdog", WatchdogStatus)
         self.news: DriveStatus | None = None
         """The status that came since the look before."""
         self.status: DriveStatus | None = None
         """None when no actuator is heard"""
+        self.unmanned: Unmanned | None = None
+        """What its watchdog says, while it has no actuator."""
         self._status_at = float("-inf")
         self._epoch: int | None = None
         self._at_rest = False
-        self._odom: Odometry | None = None
-        self._odom_at = float("-inf")
-        self._log = ""
-        self._log_at = float("-inf")
+        self._odom: tuple[Odometry | None, float] = (None, float("-inf"))
+        """where it was last, and when it said so"""
+        self._log = ("", float("-inf"))
+        """its latest warning, and when that came"""
 
     def look(self, now: float) -> bool:
         """Take in what came; True where whoever acts must begin anew.
@@ -45,14 +58,17 @@ class Sight:
         self.news = self._statuses.newest()
         if self.news:
             if self.news.state == "driving" and self.status and self.status.state != "driving":
-                self._log = ""  # whatever was in the way is so no more
+                self._log = ("", now)  # whatever was in the way is so no more
             self.status, self._status_at = self.news, now
+            self.unmanned = None
         elif now - self._status_at > LINK_LOSS:
             self.status = None
+        if dog := self._watchdogs.newest():
+            self.unmanned = _unmanned(dog, self._robot)
         beat = self._heard.beat
         gone = beat is None or now - self._heard.at > LINK_LOSS
         if beat and self._epoch not in (None, beat.epoch):
-            self._log, self._log_at = ANEW, now
+            self._log = (ANEW, now)
         before = self._epoch, self._at_rest
         self._epoch = None if beat is None or gone else beat.epoch
         self._at_rest = self.status is not None and self.status.state in HOLDS
@@ -71,19 +87,20 @@ class Sight:
     def odom(self, now: float) -> Odometry | None:
         """Return where it said that it is; None when nobody says so any more."""
         if newest := self._odoms.newest():
-            self._odom, self._odom_at = newest, now
-        elif now - self._odom_at > ODOM_LASTS:
-            self._odom = None
-        return self._odom
+            self._odom = newest, now
+        elif now - self._odom[1] > ODOM_LASTS:
+            self._odom = None, self._odom[1]
+        return self._odom[0]
 
     @property
     def odom_lost(self) -> bool:
         """Whether it said where it is, and does so no more."""
-        return self._odom is None and self._odom_at > float("-inf")
+        return self._odom[0] is None and self._odom[1] > float("-inf")
 
     def log(self, now: float) -> str:
         """Return its latest warning, while it is news; all else the status says better."""
         for said in self._logs.take():
             if said.message.name in OWN and said.message.level >= Log.WARN:
-                self._log, self._log_at = f"{said.message.name}: {said.message.msg}", now
-        return self._log if now - self._log_at < NEWS else ""
+                self._log = (f"{said.message.name}: {said.message.msg}", now)
+        words, at = self._log
+        return words if now - at < NEWS else ""

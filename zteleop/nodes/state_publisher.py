@@ -6,7 +6,7 @@ from zteleop.control.drive import Drive, Step
 from zteleop.control.explain import layers
 from zteleop.control.gate import Refusal
 from zteleop.control.refusals import RefusedSenders
-from zteleop.control.report import refusals, status, to_vehicle
+from zteleop.control.report import overridden, refusals, status, to_vehicle
 from zteleop.control.snapshot import snapshot
 from zteleop.machine.stop_file import StopFile
 from zteleop.messages import Beat, DriveStatus, Refusals, Vehicle, Why
@@ -22,6 +22,8 @@ class StatePublisher:
         self._output = output
         self._stop_file = stop_file
         self._refused = RefusedSenders()
+        self._waiting = RefusedSenders()
+        """whose commands count, while another source drives"""
         self._beats = node.publisher("beat", Beat)
         self._statuses = node.publisher("drive_status", DriveStatus)
         self._vehicles = node.publisher("vehicle", Vehicle)
@@ -46,7 +48,14 @@ class StatePublisher:
         """Say what the robot is, why it does what it does, and who is refused."""
         self._vehicles.publish(to_vehicle(self._drive.settings, self._tick_us, step.state != "starting"))
         now = clock.now()
-        self._whys.publish(Why(layers(snapshot(self._drive, step, now), self._output.evidence)))
-        refused = self._refused.news(now)
-        if refused is not None:  # nothing while all is well
-            self._refusals.publish(refusals(self._drive, refused, now))
+        seen = snapshot(self._drive, step, now)
+        self._whys.publish(Why(layers(seen, self._output.evidence)))
+        for claim in seen.claims:
+            self._waiting.note(claim.sender, claim.source, overridden(seen, claim), now)
+        refused, waiting = self._refused.news(now), self._waiting.news(now)
+        if refused is None and waiting is None:  # nothing while all is well
+            return
+        told = {**(waiting or {}), **(refused or {})}
+        if not seen.holds and any(turned.why is Refusal.AT_REST for turned in told.values()):
+            return  # what they were told before is over, and their next command finds out what is so now
+        self._refusals.publish(refusals(self._drive, told, now))

@@ -209,7 +209,7 @@ class Stopping:
             return
         what = f"has not acknowledged the stop within {ACKNOWLEDGED_WITHIN:g} s"
         others = f", and rests only by that of {whose(seen.stops)}" if seen and seen.stops else ""
-        advice = "cut its power, or run zteleop neutral on it"
+        advice = f"cut its power, or run zteleop neutral --robot {self.robot} on it"
         self._end("failed", f"{self.robot} {what}{others}: {advice}", now)
 
     def _within(self, now: float) -> str:

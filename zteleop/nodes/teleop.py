@@ -160,18 +160,19 @@ class Teleop:
 
     def _view(self, now: float) -> View:
         publisher = self._pwms if self._device.drive == "step" else self._twists
-        status = self._sight.status
+        status, unmanned = self._sight.status, self._sight.unmanned
         ours = status is not None and status.operator == publisher.sender
         return View(
             now=now,
             vehicle=self._vehicle,
             stick=self._stick,
             command=self._wanted,
-            status=status,
+            status=None if unmanned else status,
             ours=ours,
             refused=publisher.refused,
             odom=self._sight.odom(now),
             odom_lost=self._sight.odom_lost,
+            unmanned=unmanned,
             silence=round(self._sight.silence(now), 1),
             note=self._news(now),
             alarm=self._stopping.unanswered,

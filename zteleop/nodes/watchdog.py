@@ -4,6 +4,7 @@ import signal
 import time
 from collections.abc import Callable
 from types import FrameType
+from typing import Literal
 
 from zteleop.bus import clock
 from zteleop.bus.lane.ear import Ear, Heard
@@ -199,6 +200,8 @@ class Watchdog:
         if self._child.link:
             self._node.membership.loop.unwatch(self._child.link.fileno())
         code = self._child.end(wait)
+        if code and code < 0 and not late:
+            why = f"{why}, by {signal.Signals(-code).name}"
         self._rest()
         if self._never_stepped and code and code > 0:  # it has said why, in a sentence of its own
             self._exit_code = code
@@ -264,7 +267,9 @@ class Watchdog:
     def _say_last_word(self) -> None:
         robot = self._node.robot
         if self._hand.at_rest:
+            self._why = f"ended, and {robot} is at rest: its chip reads neutral"
             self._node.log.info(f"ends: {robot} is at rest, its chip reads neutral")
+            self._tell_status(ended=True)
         elif not self._never_stepped:
             self._node.log.error(f"ends, and {robot} may move: neutral cannot be written; cut its power")
 
@@ -273,12 +278,11 @@ class Watchdog:
         if self._recorder and self._child.ready:
             self._recorder.tend(clock.now())
 
-    def _tell_status(self) -> None:
+    def _tell_status(self, ended: bool = False) -> None:
         now = clock.now()
-        resting = self._restart_at is not None
         self._statuses.publish(
             WatchdogStatus(
-                state="resting" if resting else "watching" if self._child.ready else "starting",
+                state="ended" if ended else self._state,
                 why=self._why,
                 silence=max(0.0, self._child.silence(now)),
                 moving=self._judge.moving,
@@ -287,3 +291,9 @@ class Watchdog:
                 restarts=self._child.starts - 1,
             )
         )
+
+    @property
+    def _state(self) -> Literal["starting", "watching", "resting"]:
+        if self._restart_at is not None:
+            return "resting"
+        return "watching" if self._child.ready else "starting"

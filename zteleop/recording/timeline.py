@@ -39,6 +39,7 @@ class _Pulse(Struct):
 class _Status(Struct):
     state: str = ""
     why: str = ""
+    operator: str = ""
     pulses: list[_Pulse] = []
 
 
@@ -52,6 +53,7 @@ class _Stop(Struct):
 class _Dog(Struct):
     state: str = ""
     why: str = ""
+    moving: bool = False
     restarts: int = 0
 
 
@@ -116,7 +118,7 @@ class Timeline:
 
     def _hear_status(self, status: _Status, at: float) -> None:
         before, self._status = self._status, status
-        if before is None or before.state != status.state:
+        if before is None or (before.state, before.operator) != (status.state, status.operator):
             self._note(at, f"{status.state}: {status.why}")
         if before and _moves(before) != _moves(status):
             pulses = ", ".join(f"{p.name} {p.duty_ticks}" for p in reversed(status.pulses))
@@ -131,6 +133,8 @@ class Timeline:
 
     def _hear_watchdog(self, dog: _Dog, at: float) -> None:
         before, self._dog = self._dog, dog
+        if before and before.moving and dog.state == "resting" and not dog.moving:
+            self._note(at, "the watchdog reads pulses of rest")
         if before is None or (before.state, before.restarts) == (dog.state, dog.restarts):
             return
         again = ", another actuator is started" if dog.restarts > before.restarts else ""

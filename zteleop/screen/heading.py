@@ -35,6 +35,7 @@ def bar(spans: list[Span], columns: int) -> list[Span]:
 def state(d: Dashboard, unicode: bool) -> list[Span]:
     """Return what the robot does, in a word."""
     word: str = d.seen.status.state if d.seen.status else "looking" if d.looking else "no actuator"
+    word = d.seen.unmanned.word if d.seen.unmanned else word
     word = f"no word for {d.seen.silence:.1f} s" if d.seen.silence else word
     return [Span(f"{'●' if unicode else '*'} {word}", COLORS.get(word, "yellow"))]
 
@@ -55,6 +56,8 @@ def reasons(d: Dashboard, unicode: bool) -> list[tuple[str, str]]:
     robot = printable(d.robot, unicode)
     if status is None and d.looking:
         return [(f"listening for robot {robot}", "")]
+    if d.seen.unmanned:
+        return [(printable(d.seen.unmanned.why, unicode), "")]
     if status is None:
         others = f" ({printable(d.others, unicode)})" if d.others else ""
         start = f"start `zteleop actuator --robot {robot}`"

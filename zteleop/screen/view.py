@@ -6,6 +6,13 @@ from zteleop.control.stick import Stick
 from zteleop.messages import DriveStatus, Odometry, Pwm, Twist, Vehicle
 
 
+class Unmanned(NamedTuple):
+    """A robot without an actuator, as its watchdog tells: in a word, and in a sentence."""
+
+    word: str
+    why: str
+
+
 class View(NamedTuple):
     """What was not heard is None."""
 
@@ -24,6 +31,8 @@ class View(NamedTuple):
     """None when nobody says where it is"""
     odom_lost: bool = False
     """somebody said where it is, and does so no more"""
+    unmanned: Unmanned | None = None
+    """its watchdog's word, while it has no actuator"""
     silence: float = 0.0
     """s for which the robot has said nothing, where that is too long: what it said last may be over"""
     note: str = ""

@@ -94,6 +94,7 @@ class FakeMembership:
 
     def __init__(self, loop: FakeLoop) -> None:
         self.loop = loop
+        self.session: Any = SimpleNamespace(tokens=lambda selector: set(), unreached=lambda: ())
         self.robot = Robot()
         self.leaves: Callable[[int], object] = lambda sender: None
         """What is done when a sender of commands is gone."""

@@ -78,6 +78,9 @@ class Session:
         self.asked.append((key, payload, encoding, seconds))
         return self.reply
 
+    def unreached(self) -> list[str]:
+        return []
+
     def declare_token(self, key: str) -> None:
         self.alive.append(key)
 

@@ -35,7 +35,7 @@ def test_a_commands_sources_and_names_are_one_topic() -> None:
         ("abe/odom", "nose on pi-7 publishes it, and said nothing so far"),
         ("abe/odmo", "nobody publishes it; did you mean odom?"),
         ("abe/cmdvel", "nobody publishes it; did you mean cmd_vel?"),
-        ("abe/cmd_vel", "nobody publishes it yet"),
+        ("abe/cmd_vel", "nobody publishes it now"),
         (
             "abee/odom",
             "nobody publishes it; robot abee is not heard; heard here: abe, zoe; did you mean abe?",
@@ -57,7 +57,7 @@ def test_two_who_say_nothing_are_two() -> None:
 
 def test_where_nobody_is_there_no_robot_is_heard() -> None:
     assert why_silent(resolve("abe/odom", None), []) == (
-        "nobody publishes it; robot abe is not heard; no robot is heard here"
+        "nobody publishes it; robot abe is not heard; no actuator is heard here"
     )
 
 
@@ -67,7 +67,7 @@ def test_where_nobody_is_there_no_robot_is_heard() -> None:
         ("abe/scan", "map on pi-7 hears it"),
         ("abe/scna", "nobody hears it; did you mean scan?"),
         ("abe/cmdvel", "nobody hears it; did you mean cmd_vel?"),
-        ("abe/odom", "nobody hears it yet"),
+        ("abe/odom", "nobody hears it now"),
         ("zeo/scan", "nobody hears it; robot zeo is not heard; heard here: abe, zoe; did you mean zoe?"),
     ],
 )

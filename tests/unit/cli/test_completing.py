@@ -13,6 +13,8 @@ HERE = Graph(
     ],
     [Member("abe", "actuator", "pi-7"), Member("bob", "watchdog", "pi-8")],
     "abe",
+    [Endpoint("abe", "srv", "lights", "pi-7", "std_srvs/srv/SetBool", "lights")],
+    [Member("abe", "actuator", "pi-7")],
 )
 
 
@@ -44,6 +46,12 @@ def bus(monkeypatch: pytest.MonkeyPatch) -> list[object]:
         (["echo", ""], ["abe/odom"]),
         (["topic", "echo", "ab"], ["abe/odom"]),
         (["hz", "abe/odom", ""], ["abe/odom"]),
+        (["hz", "/a"], ["/abe/odom"]),
+        (["echo", "od"], ["odom"]),
+        (["service", "call", "/abe/li"], ["/abe/lights"]),
+        (["service", "type", "/abe/actuator/g"], ["/abe/actuator/get_parameters"]),
+        (["service", "call", "lights", "std_srvs/srv/S"], ["std_srvs/srv/SetBool"]),
+        (["param", "set", "/a"], ["/abe/actuator"]),
         (["echo", "--once", "a"], ["abe/odom"]),
         (["echo", "--robot", ""], ["abe", "bob"]),
         (["stop", "b"], ["bob"]),

@@ -144,8 +144,8 @@ def test_a_group_that_nobody_speaks_to_says_nothing(monkeypatch: pytest.MonkeyPa
 
 def test_a_robot_that_is_meant_and_not_heard_is_worth_knowing(heard: list[str]) -> None:
     robots, meant = CHECKS["robots"], CAR._replace(settings=Config(robot="abe"))
-    assert robots(CAR) == (None, "no robot is heard here; zteleop demo starts one")
-    assert robots(meant) == (None, "abe is not heard, no robot is heard here; is its actuator on?")
+    assert robots(CAR) == (None, "no actuator is heard here; zteleop demo starts one")
+    assert robots(meant) == (None, "abe is not heard, no actuator is heard here; is its actuator on?")
     heard.append("zoe")
     assert robots(CAR) == (True, "heard here: zoe")
     assert robots(meant).good is None

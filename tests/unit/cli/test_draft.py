@@ -26,6 +26,10 @@ def test_a_stamp_is_of_the_moment_at_which_it_is_said(text: str) -> None:
     assert first.header.frame_id == ("base" if "base" in text else "")
 
 
+def test_a_text_in_quotes_is_read_as_what_it_says() -> None:
+    assert Draft(Twist, '"linear:\\n  x: 0.5\\n"').make() == Twist.planar(0.5)
+
+
 def test_what_has_no_such_word_is_made_once() -> None:
     draft = Draft(Twist, "{linear: {x: 0.5}}")
     assert draft.make() == Twist.planar(0.5)

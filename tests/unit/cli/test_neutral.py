@@ -44,10 +44,11 @@ def neutral(*arguments: str) -> int:
 
 def test_it_writes_neutral_and_says_what_that_is(chip: str, capsys: Capture) -> None:
     assert ticks(chip) != (370, 375)
-    assert neutral() == 0
+    assert neutral("--robot", "archangel") == 0
     assert ticks(chip) == (370, 375)
     assert capsys.readouterr() == (
-        "at rest: throttle 1510 us = 370 ticks, steering 1530 us = 375 ticks\n",
+        f"archangel at rest, in the simulated chip {chip}: "
+        "throttle 1510 us = 370 ticks, steering 1530 us = 375 ticks\n",
         "",
     )
 

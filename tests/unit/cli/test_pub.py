@@ -7,10 +7,17 @@ import pytest
 from zteleop.cli import _options, pub
 from zteleop.control.gate import Refusal
 from zteleop.control.resume import Resume
+from zteleop.errors import BusError
 from zteleop.messages import DriveStatus, Message, Refusals, Refused, Twist
 from zteleop.testing import Clock, FakeNode, Said
 
 FORWARD = Twist.planar(0.5)
+
+
+def does(state: Any, why: str = "", operator: str = "") -> DriveStatus:
+    status = DriveStatus.zero()
+    status.state, status.why, status.operator = state, why, operator
+    return status
 
 
 def say(
@@ -20,11 +27,14 @@ def say(
     said: Said | None = None,
     node: FakeNode | None = None,
     resume: Resume | None = None,
+    status: DriveStatus | None = None,
 ) -> list[Any]:
-    """Return what is said within so many ticks, ended by Ctrl-C."""
+    """Return what is said within so many ticks, ended by Ctrl-C, to a robot that obeys it, or is so."""
     node, said = node or FakeNode(), said or Said("cmd_vel", "ff")
 
     def spin(seconds: float | None = None) -> None:
+        heed, *_ = node.inboxes["drive_status"].handlers
+        heed(SimpleNamespace(message=status or does("driving", "keyboard drives", "ff")))
         if seconds is not None:
             node.stayed = seconds
             node.loop.run(0.1)
@@ -129,3 +139,35 @@ def test_a_count_that_never_comes_is_refused(times: str, capsys: pytest.CaptureF
     pub.add_arguments(parser)
     with pytest.raises(SystemExit):
         parser.parse_args(["archangel/cmd_vel", "Twist", "-t", times])
+
+
+@pytest.mark.parametrize(
+    ("status", "words"),
+    [
+        (does("stopped", "stopped by ann"), "nothing of it was obeyed: stopped: stopped by ann"),
+        (
+            does("driving", "keyboard 1234 drives", "aa"),
+            "nothing of it was obeyed: driving: keyboard 1234 drives",
+        ),
+    ],
+)
+def test_what_a_robot_obeys_nothing_of_is_an_error(status: DriveStatus, words: str) -> None:
+    with pytest.raises(BusError, match=words):
+        say(FORWARD, 1, 5, status=status)
+
+
+def test_the_robots_own_words_come_first() -> None:
+    said = Said("cmd_vel", "ff")
+    said.refused = "it was moving before the stop was released"
+    with pytest.raises(BusError, match="nothing of it was obeyed: it was moving before"):
+        say(FORWARD, 1, 5, said, status=does("idle"))
+
+
+def test_whoever_asks_for_rest_need_not_be_obeyed() -> None:
+    assert say(Twist.planar(), 1, 5, status=does("stopped")) == [Twist.planar()]
+
+
+def test_whoever_says_no_command_is_obeyed_by_nobody(capsys: pytest.CaptureFixture[str]) -> None:
+    node = FakeNode()
+    pub._say(node, Said("chatter"), lambda: FORWARD, 10.0, 1, None, 0.0)  # type: ignore[arg-type]
+    assert "drive_status" not in node.inboxes

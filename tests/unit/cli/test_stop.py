@@ -28,7 +28,6 @@ class Robot(FakeNode):
     def __init__(self, clock: Clock, latch: Latch | None) -> None:
         super().__init__(clock=clock)
         self.clock, self.latch = clock, latch
-        self.membership.session = None
         self.membership.until = self.until
         self.ears: list[Inbox] = []
 
@@ -93,6 +92,9 @@ class Stopped(Lane):
 
 
 Type = Callable[..., tuple[int, str, str]]
+
+
+OWN = "zteleop: no robot is named, and none is heard; archangel is meant, as this machine's own is called\n"
 
 
 @pytest.fixture
@@ -170,7 +172,7 @@ def test_a_robot_nobody_has_is_told_with_those_there_are(typed: Type, heard: lis
     assert code == 1
     words, *rest = error.splitlines()
     assert words == "gabriel does not answer so far, and is asked on; heard here: archangel, michael"
-    assert rest[-1].endswith("or run zteleop neutral on it")
+    assert rest[-1].endswith("or run zteleop neutral --robot gabriel on it")
 
 
 @pytest.mark.parametrize(
@@ -214,16 +216,19 @@ def test_a_stop_that_nobody_acknowledges_is_an_error_that_says_what_to_do(typed:
     assert typed(None) == (
         1,
         "",
-        "archangel does not answer so far, and is asked on; no robot is heard here\n"
+        OWN + "archangel does not answer so far, and is asked on; no actuator is heard here\n"
         "zteleop stop: archangel has not acknowledged the stop within 2 s: "
-        "cut its power, or run zteleop neutral on it\n",
+        "cut its power, or run zteleop neutral --robot archangel on it\n",
     )
 
 
 def test_a_release_of_a_robot_that_is_not_heard_is_an_error(typed: Type) -> None:
     code, out, error = typed(None, "--release")
     assert (code, out) == (1, "")
-    assert error == "zteleop stop: archangel is not heard, so nothing is released; no robot is heard here\n"
+    assert error == (
+        f"{OWN}zteleop stop: waits for archangel; no actuator is heard here\n"
+        "zteleop stop: archangel is not heard, so nothing is released; no actuator is heard here\n"
+    )
 
 
 def test_the_first_word_leaves_before_anything_is_waited_for(clock: Clock) -> None:
@@ -262,7 +267,7 @@ def test_a_robot_that_answers_without_the_bus_is_stopped_and_that_is_said(
     ("lane", "code", "words"),
     [
         (Stopped, 0, "zteleop stop: warning: no router found; it went out as datagrams alone\n"),
-        (Lane, 1, "or run zteleop neutral on it\nzteleop stop: no router found\n"),
+        (Lane, 1, "or run zteleop neutral --robot archangel on it\nzteleop stop: no router found\n"),
     ],
 )
 def test_without_a_bus_a_stop_goes_out_all_the_same(

@@ -19,9 +19,13 @@ class Ears:
     def __init__(self, *endpoints: Endpoint) -> None:
         self.there = list(endpoints)
         self.heard: dict[str, object] = {}
+        self.nobody_at: list[str] = []
 
     def endpoints(self) -> list[Endpoint]:
         return self.there
+
+    def unreached(self) -> list[str]:
+        return self.nobody_at
 
     def hear(self, name: Name, handler: object) -> None:
         self.heard[str(name)] = handler
@@ -77,3 +81,17 @@ def test_a_stranger_who_names_any_number_of_topics_or_none_that_is_a_name_ends_n
 def test_outside_a_terminal_one_table_stands_below_the_other(capsys: pytest.CaptureFixture[str]) -> None:
     watch.draw(["a", "\x1b[2Jb"])
     assert capsys.readouterr().out == "a\n\\u001b[2Jb\n\n"
+
+
+def test_where_nobody_speaks_it_says_who_does_elsewhere_or_that_nobody_answers() -> None:
+    ears = Ears(end("odom", robot="bob"))
+    watched = watch.Watched(ears, "bop")
+    watched.look()
+    assert watched.lines(1.0) == ["nobody speaks for bop; heard here: bob; did you mean bob?"]
+    ears.there, ears.nobody_at = [], ["tcp/pi:7447"]
+    watched.look()
+    (line,) = watched.lines(1.0)
+    assert (
+        line
+        == "nobody speaks for bop; nothing answers at tcp/pi:7447: is the address right, and the robot on?"
+    )

@@ -19,6 +19,7 @@ Watch = Callable[..., list[str]]
 def node(clock: Clock, monkeypatch: pytest.MonkeyPatch) -> FakeNode:
     node = FakeNode(clock=clock)
     monkeypatch.setattr(watchdog._options, "load_anyhow", lambda arguments: None)
+    monkeypatch.setattr("zteleop.bus.presence.robots", lambda session: ["archangle"])
     monkeypatch.setattr(watchdog._options, "join", lambda name, settings: nullcontext(node))
     return node
 
@@ -78,18 +79,18 @@ def test_what_the_bus_says_cannot_write_on_the_screen(watch: Watch) -> None:
 
 def test_a_watchdog_that_is_not_heard_is_an_error_in_words(node: FakeNode, clock: Clock) -> None:
     node.spin = lambda: node.live(3.0)
-    with pytest.raises(
-        BusError, match=r"no watchdog of archangel has been heard for 2 s; if the robot moves"
-    ):
+    here = r"heard here: archangle; did you mean archangle\?"
+    words = rf"no watchdog of archangel has been heard for 1.5 s \({here}\); if the robot moves"
+    with pytest.raises(BusError, match=words):
         watchdog.run(argparse.Namespace(once=False))
 
 
 def test_one_that_falls_silent_later_is_an_error_too(node: FakeNode, clock: Clock) -> None:
     def spin() -> None:
-        node.live(1.9)
+        node.live(1.4)
         received = Received(dog(), "robot/archangel/watchdog", None, clock.time)
         node.inboxes["watchdog"].handler(received)
-        node.live(1.9)
+        node.live(1.4)
         with pytest.raises(BusError, match="no watchdog"):
             node.live(1.0)
 

@@ -1,5 +1,7 @@
 from collections.abc import Callable
 from contextlib import nullcontext
+from datetime import UTC, datetime
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -46,13 +48,16 @@ STATUS.state, STATUS.why = "driving", "keyboard drives"
 LAYERS = Why([Layer("operator", "keyboard 00ff operates"), Layer("limiter", "passes it on as asked")])
 
 
-def test_a_line_for_the_robot_and_one_for_each_layer() -> None:
+def test_a_line_for_the_robot_and_one_for_each_layer(monkeypatch: pytest.MonkeyPatch) -> None:
+    today = datetime(2026, 11, 28, 21, 40, 5, tzinfo=UTC)
+    monkeypatch.setattr(why, "datetime", SimpleNamespace(now=lambda zone: today))
     assert answer(node(drive_status=STATUS, why=LAYERS, watchdog=dog())).splitlines() == [
         "archangel is driving: keyboard drives",
         "  operator  keyboard 00ff operates",
         "  limiter   passes it on as asked",
         "  watchdog  watching: the actuator steps, last 12 ms ago; sees pulses of rest, "
-        "and as far as it hears, nobody may drive",
+        "and has heard no command that allows motion",
+        "  at        2026-11-28 21:40:05 UTC",
     ]
 
 
@@ -63,15 +68,14 @@ def test_a_robot_whose_actuator_is_gone_is_told_by_its_watchdog() -> None:
 
 
 def test_a_robot_whose_watchdog_is_not_heard_says_so() -> None:
-    assert answer(node(drive_status=STATUS)).splitlines()[-1] == "  watchdog  is not heard"
+    assert answer(node(drive_status=STATUS)).splitlines()[-2] == "  watchdog  is not heard"
 
 
 def test_nobody_there_is_an_error_in_words_that_names_who_is_and_is_told_sooner(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     silent = node()
-    silent.membership.session = None
-    monkeypatch.setattr(why.presence, "robots", lambda session: ["zoe"])
+    monkeypatch.setattr(why._company.presence, "robots", lambda session: ["zoe"])
     words = r"no actuator of archangel is heard within 2 s; is it on\? heard here: zoe"
     with pytest.raises(BusError, match=words):
         answer(silent)
@@ -82,10 +86,10 @@ def test_nobody_there_is_an_error_in_words_that_names_who_is_and_is_told_sooner(
 @pytest.mark.parametrize(
     ("status", "words"),
     [
-        (dog(moving=True, allowed=True), "sees pulses that move, and as far as it hears, somebody may drive"),
-        (dog(moving=True), "sees pulses that move, and as far as it hears, nobody may drive"),
-        (dog(restarts=3), "nobody may drive; 3 restarts"),
-        (dog(restarts=1), "nobody may drive; 1 restart"),
+        (dog(moving=True, allowed=True), "sees pulses that move, and has heard commands that allow motion"),
+        (dog(moving=True), "sees pulses that move, and has heard no command that allows motion"),
+        (dog(restarts=3), "no command that allows motion; 3 restarts"),
+        (dog(restarts=1), "no command that allows motion; 1 restart"),
         (dog(state="starting", why="the actuator starts"), "starting: the actuator starts; sees"),
     ],
 )
@@ -105,9 +109,9 @@ def test_the_verb_prints_it_escaped(monkeypatch: pytest.MonkeyPatch, capsys: Any
     why.run(None)
     out = capsys.readouterr().out
     assert "\x1b" not in out
-    assert out.count("\n") == 3
+    assert out.count("\n") == 4
 
 
 def test_a_stranger_adds_no_line_of_his_own() -> None:
     evil = Why([Layer("operator", "nobody\n  watchdog  watching")])
-    assert len(answer(node(drive_status=STATUS, why=evil)).splitlines()) == 3
+    assert len(answer(node(drive_status=STATUS, why=evil)).splitlines()) == 4

@@ -52,7 +52,7 @@ def test_silence_brings_neutral_at_once_and_commands_resume() -> None:
     assert moves(robot.hold(FORWARD, 0.5))
     step = robot.wait(0.3)
     assert (moves(step), step.state) == (False, "link lost")
-    assert "keyboard has been silent for" in step.why
+    assert "keyboard 0001 has been silent for" in step.why
     assert not moves(robot.hold(FORWARD, 0.3, act=False))  # a lever asks for one more press
     assert moves(robot.hold(FORWARD, 0.2))
 
@@ -285,7 +285,11 @@ def test_a_sender_whose_process_is_gone_lets_go_at_once() -> None:
     robot.hold(FORWARD, 0.2)
     robot.drive.admission.withdraw(1, robot.now)
     step = robot.step()
-    assert (step.state, step.why, moves(step)) == ("link lost", "keyboard is gone", False)
+    assert (step.state, step.why, moves(step)) == (
+        "link lost",
+        "keyboard 0001 is gone; the next act drives",
+        False,
+    )
     assert robot.say(FORWARD, "b") is None  # and somebody else may take over
     robot.say(REST, "b")
     assert robot.step().state == "idle"
@@ -299,10 +303,25 @@ def test_the_departure_of_somebody_else_changes_nothing() -> None:
     assert moves(robot.step())
 
 
-def test_a_link_that_was_lost_stays_lost_though_nobody_can_act() -> None:
+def test_a_link_is_lost_until_nobody_may_go_on_any_more_and_then_nobody_drives() -> None:
     robot = Robot()
     robot.hold(FORWARD, 0.2)
-    assert robot.wait(6.0).state == "link lost"
+    assert robot.wait(1.9).state == "link lost"
+    rests = robot.wait(4.0)
+    assert (rests.state, rests.why) == ("idle", "nobody drives; keyboard 0001 has been silent for 6.0 s")
+
+
+def test_who_was_refused_and_lets_go_is_refused_no_more() -> None:
+    robot = Robot()
+    robot.drive.admission.hold("chip", "fault", "the chip is silent", robot.now)
+    robot.say(FORWARD)
+    robot.drive.admission.free("chip", robot.now)
+    robot.say(FORWARD)
+    assert "keyboard 0001 is refused: it was moving before" in robot.step().why
+    robot.say(REST, "b")
+    assert "keyboard 0001 is refused" in robot.step().why  # it was another who let go
+    robot.say(REST)
+    assert robot.step().why == "nobody drives"
 
 
 def test_refusals_are_counted_by_source_while_their_reason_lasts() -> None:

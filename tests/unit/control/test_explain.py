@@ -190,7 +190,7 @@ def test_after_letting_go_and_after_a_silence_the_reason_is_told() -> None:
     robot = Robot()
     robot.hold(FORWARD, 0.2)
     robot.wait(0.4)
-    assert says(robot)["rest"].startswith("link lost: keyboard has been silent for 0.")
+    assert says(robot)["rest"].startswith("link lost: keyboard 0001 has been silent for 0.")
     robot.say(REST)
     assert says(robot)["rest"] == "idle: nobody drives"
 

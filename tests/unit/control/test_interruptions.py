@@ -209,7 +209,7 @@ def test_an_actuator_that_was_ended_for_being_late_is_an_interruption(robot: Rob
     robot.hold(FORWARD, 0.5)
     take_over(robot, 1.0)
     assert not moves(robot.step()), "the next act, and not the last"
-    assert robot.step().why == "it came late; keyboard goes on with its next act"
+    assert robot.step().why == "it came late; keyboard 0001 goes on with its next act"
     assert drives_on(robot)
 
 

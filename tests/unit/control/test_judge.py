@@ -146,7 +146,7 @@ def test_a_chip_that_moves_on_after_a_sources_silence_is_stopped(
     robot.pulses = MOVING
     robot.say(FORWARD, source=source)
     assert silence + GRACE < robot.until_engaged() <= silence + SOON + 0.03
-    assert f"{source} has been silent" in robot.why
+    assert f"{source} 0001 has been silent" in robot.why
 
 
 def test_a_chip_that_does_not_obey_a_stop_is_stopped_after_the_grace_and_not_before(robot: Watched) -> None:

@@ -73,7 +73,11 @@ def test_what_fails_is_started_again_and_later_each_time() -> None:
 @pytest.mark.parametrize(
     ("program", "code", "words"),
     [
-        (python("raise SystemExit(2)"), 2, "was called wrongly, and is not started again"),
+        (
+            python("raise SystemExit(2)"),
+            2,
+            "ended with 2, as what is called wrongly does, and is not started again",
+        ),
         (Program(["/no/such/program"]), 127, "cannot be started: No such file or directory"),
     ],
 )

@@ -292,7 +292,7 @@ def test_one_in_anothers_place_goes_on_with_the_next_act_and_arms_nothing(
     )
     robot.hear(Words(True))
     robot.tick()
-    assert robot.status.why.endswith("; keyboard goes on with its next act")
+    assert robot.status.why.endswith("; keyboard 0007 goes on with its next act")
     robot.prover = prover
     for _ in range(3):
         prover.act(robot.beat)
@@ -486,7 +486,10 @@ def test_a_sender_whose_process_is_gone_lets_go_at_once(robot: Robot) -> None:
     robot.node.membership.leaves(7)
     robot.node.loop.ring(robot.clock.time)
     assert robot.chip.pulses == NEUTRAL
-    assert (robot.status.state, robot.status.why) == ("link lost", "keyboard is gone")
+    assert (robot.status.state, robot.status.why) == (
+        "link lost",
+        "keyboard 0007 is gone; the next act drives",
+    )
 
 
 def test_the_journal_hears_every_command_with_its_verdict(robot: Robot) -> None:
@@ -612,7 +615,7 @@ def test_after_a_short_one_whoever_drove_goes_on_with_the_next_act_and_not_befor
         "this process stood still for 0.25 s; whoever drove goes on with the next act"
     )
     assert robot.status.why.startswith(
-        "this process stood still for 0.25 s; keyboard goes on with its next act"
+        "this process stood still for 0.25 s; keyboard 0007 goes on with its next act"
     )
     assert ("interruption", {"why": "this process stood still for 0.25 s"}) in robot.journal.events
     robot.tick()
@@ -672,8 +675,64 @@ def test_whoever_is_refused_for_a_while_is_told_and_nobody_else(robot: Robot) ->
     assert refused.why == "it was made before the robot's last start"
     assert refused.since > 0.5
     robot.tick(110)
+    told.take()
     robot.node.loop.run(TOPICS["why"].every)
     assert told.take() == []
+
+
+def drive_once(robot: Robot, prover: Prover, source: str) -> None:
+    """Say a command, and let the robot tell whom it does not obey."""
+    robot.tick(5)
+    prover.act(robot.beat)
+    robot.say(PUSH, source=source, proof=prover.prove(robot.beat, True, robot.clock.time))
+    robot.tick()
+    robot.node.loop.run(TOPICS["why"].every)
+
+
+def drive(robot: Robot, prover: Prover, source: str) -> None:
+    for _ in range(10):
+        drive_once(robot, prover, source)
+
+
+def test_whoever_waits_for_another_source_is_told_and_when_it_is_obeyed_again(robot: Robot) -> None:
+    told = robot.node.said["refusals"]
+    program, keyboard = Prover(0xFF), Prover(0xAA)
+    drive(robot, program, "program")
+    assert told.take() == []
+    for _ in range(10):
+        drive_once(robot, program, "program")
+        drive_once(robot, keyboard, "keyboard")
+    (refused,) = told.take()[-1].refused
+    assert (refused.sender, refused.why) == (
+        "ff",
+        "keyboard 00aa drives, with priority 90 over 50; this one is obeyed when that one is done",
+    )
+    drive(robot, program, "program")
+    assert told.take()[-1].refused == []
+
+
+def test_whoever_drives_is_told_in_the_log_when_it_is_another(robot: Robot) -> None:
+    drive_once(robot, Prover(0xFF), "program")
+    drive_once(robot, Prover(0xAA), "keyboard")
+    assert robot.node.infos[-2:] == ["driving: program 00ff drives", "driving: keyboard 00aa drives"]
+
+
+def test_what_they_were_refused_for_is_told_to_nobody_once_it_is_over(node: FakeNode, clock: Clock) -> None:
+    robot = Robot(node, clock, shelf=Shelf(KEPT))
+    for _ in range(8):
+        drive_once(robot, robot.prover, "keyboard")
+    assert node.said["refusals"].take()[-1].refused[0].why.startswith("the robot is kept at rest")
+    release = Stop(engaged=False, id=KEPT.id, by="ann", why="")
+    node.inboxes["stop"].handler(Received(release, "stop", None, clock.time))
+    node.loop.run(TOPICS["why"].every)
+    assert node.said["refusals"].take() == []
+    drive_once(robot, robot.prover, "keyboard")
+    assert (
+        node.said["refusals"]
+        .take()[-1]
+        .refused[0]
+        .why.startswith("it was moving before the stop was released")
+    )
 
 
 def test_who_is_refused_hears_what_keeps_the_robot_at_rest_and_which_stop_was_the_last(

@@ -201,7 +201,8 @@ def test_a_stop_that_nobody_acknowledges_says_what_to_do(asker: Asker) -> None:
     asker.wait(0.05, idle())
     assert asker.outcome == (
         "failed",
-        "archangel has not acknowledged the stop within 2 s: cut its power, or run zteleop neutral on it",
+        "archangel has not acknowledged the stop within 2 s: "
+        "cut its power, or run zteleop neutral --robot archangel on it",
     )
     assert asker.stopping.unanswered
     assert asker.stopping.repeats(asker.now)

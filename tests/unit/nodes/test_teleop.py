@@ -10,7 +10,7 @@ from zteleop.control.settings import DriveSettings
 from zteleop.control.stick import Speeds, Stick
 from zteleop.errors import BusError, ConfigError
 from zteleop.inputs import Wish
-from zteleop.messages import DriveStatus, Log, Odometry, Pwm, Stop, Twist, Vehicle
+from zteleop.messages import DriveStatus, Log, Odometry, Pwm, Stop, Twist, Vehicle, WatchdogStatus
 from zteleop.nodes import sight
 from zteleop.nodes.stop_request import ACKNOWLEDGED_WITHIN, REPEAT
 from zteleop.nodes.teleop import AT_REST, NEWS, PERIOD, SHOW_AFTER, Teleop
@@ -524,6 +524,31 @@ def test_what_was_said_last_is_doubted_soon_and_where_it_is_is_forgotten(desk: D
     desk.hear_state("idle")
     desk.tick()
     assert desk.views[-1].silence == 0.0
+
+
+@pytest.mark.parametrize(
+    ("state", "word", "words"),
+    [
+        ("ended", "ended", "it is at rest; `zteleop actuator --robot archangel` starts it again"),
+        ("resting", "restarting", "it is at rest; the chip is kept at rest, and another starts"),
+    ],
+)
+def test_a_robot_without_an_actuator_is_told_by_its_watchdog_until_there_is_one(
+    desk: Desk, state: str, word: str, words: str
+) -> None:
+    desk.hear_state("driving")
+    desk.tick()
+    dog = WatchdogStatus.zero()
+    dog.state, dog.why = state, "it is at rest"  # type: ignore[assignment]
+    desk.node.inboxes["watchdog"].waiting.append(dog)
+    desk.tick()
+    assert (desk.views[-1].unmanned, desk.views[-1].status) == ((word, words), None)
+    dog.state = "watching"
+    desk.node.inboxes["watchdog"].waiting.append(dog)
+    desk.hear_state("idle")
+    desk.tick()
+    assert desk.views[-1].unmanned is None
+    assert desk.views[-1].status is not None
 
 
 def test_a_robot_that_was_started_anew_is_said_to_be(desk: Desk) -> None:

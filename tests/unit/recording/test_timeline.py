@@ -155,6 +155,23 @@ def test_a_state_is_told_when_it_begins_and_marked_as_the_reason() -> None:
     ]
 
 
+def test_another_who_drives_is_told() -> None:
+    lines = []
+    for at, operator in ((0.0, "1"), (0.1, "1"), (0.2, "2")):
+        lines.append(
+            line(at, "drive_status", {"state": "driving", "why": f"{operator} drives", "operator": operator})
+        )
+    assert told(*lines) == ["0.00 driving: 1 drives", "0.20 driving: 2 drives"]
+
+
+def test_a_watchdog_that_reads_rest_is_told() -> None:
+    words = [
+        line(at, "watchdog", {"state": state, "why": "it ended", "moving": moving})
+        for at, state, moving in ((0.0, "watching", True), (0.1, "resting", True), (0.15, "resting", False))
+    ]
+    assert told(*words) == ["0.10 watchdog resting: it ended", "0.15 the watchdog reads pulses of rest"]
+
+
 def test_pulses_are_told_when_they_leave_rest_and_come_back() -> None:
     lines = [status(-3.0, "idle", "", REST), status(-2.0, "idle", "", MOVED), status(-1.0, "idle", "", MOVED)]
     assert told(*lines, status(0.0, "idle", "", REST))[1:] == [

@@ -5,6 +5,7 @@ from zteleop.control.stop import stopped_by
 from zteleop.messages import Pwm, Stop, Twist
 from zteleop.screen.heading import heading
 from zteleop.screen.readings import readings
+from zteleop.screen.view import Unmanned
 
 
 @pytest.mark.parametrize(
@@ -68,6 +69,14 @@ def test_who_is_refused_is_told_the_whole_reason(car, columns):
     lines = heading(board, columns, True)
     assert f"you are not obeyed: {HELD}" in " ".join(texts(lines))
     assert {line.spans[0].style for line in lines if "obeyed" in texts([line])[0]} == {"yellow"}
+
+
+def test_a_robot_without_an_actuator_is_told_as_its_watchdog_does(car):
+    lines = texts(
+        heading(dashboard("hold", car, unmanned=Unmanned("restarting", "it ended; wait")), 80, True)
+    )
+    assert lines[0].endswith("● restarting")
+    assert lines[1] == "it ended; wait"
 
 
 def test_in_steps_where_nothing_is_held_the_key_is_named_that_lets_go(car):

@@ -85,7 +85,10 @@ def test_the_page_of_keys_has_no_picture_behind_it(car):
     assert not any("⣿" in line for line in lines)
 
 
-ALARM = "archangel has not acknowledged the stop within 2 s: cut its power, or run zteleop neutral on it"
+ALARM = (
+    "archangel has not acknowledged the stop within 2 s: "
+    "cut its power, or run zteleop neutral --robot archangel on it"
+)
 
 
 @pytest.mark.parametrize(("columns", "rows"), [(80, 24), (40, 12), (30, 6), (120, 40)])

@@ -7,12 +7,12 @@ as on any bus.
 import select
 import socket
 import time
-from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from itertools import count
 from typing import Any, Self
 
 from zteleop.bus import clock
+from zteleop.bus.door.ends import RemoteOutlet, RemoteRing
 from zteleop.bus.door.frames import (
     Advertise,
     Answer,
@@ -64,16 +64,19 @@ class Remote:
         self.closed = False
         self._join()
 
-    def subscribe(self, key: str, depth: int) -> "RemoteRing":
+    def subscribe(self, key: str, depth: int) -> RemoteRing:
         return self._hear(Subscribe(next(self._ids), key, depth))
 
-    def watch_tokens(self, selector: str, depth: int, history: bool = False) -> "RemoteRing":
+    def watch_tokens(self, selector: str, depth: int, history: bool = False) -> RemoteRing:
         return self._hear(WatchTokens(next(self._ids), selector, depth, history))
 
-    def advertise(self, key: str, urgent: bool) -> "RemoteOutlet":
+    def advertise(self, key: str, urgent: bool) -> RemoteOutlet:
         identity = next(self._ids)
         self._declare(Advertise(identity, key, urgent))
         return RemoteOutlet(self, identity)
+
+    def unreached(self) -> Sequence[str]:
+        return ()
 
     def declare_token(self, key: str) -> None:
         self._declare(Stand(next(self._ids), key))
@@ -198,7 +201,7 @@ class Remote:
         if take := self._takes.get(asked.id):
             take(Question(asked.payload, asked.encoding, reply, refuse))
 
-    def _hear(self, declaration: Subscribe | WatchTokens) -> "RemoteRing":
+    def _hear(self, declaration: Subscribe | WatchTokens) -> RemoteRing:
         ring = self._rings[declaration.id] = RemoteRing(self, declaration.id, declaration.depth)
         self._declare(declaration)
         return ring
@@ -249,51 +252,3 @@ class Remote:
     def _unwatch(self) -> None:
         if self._loop and self._wire:
             self._loop.unwatch(self._wire.fileno())
-
-
-class RemoteRing:
-    """Keeps the newest samples; whoever finds it empty takes in what has arrived for any."""
-
-    def __init__(self, remote: Remote, identity: int, depth: int) -> None:
-        self._remote = remote
-        self._id = identity
-        self._samples: deque[Sample] = deque(maxlen=depth)
-        self.turns: Turns | None = None
-
-    @property
-    def is_empty(self) -> bool:
-        return not self._samples
-
-    def take(self, sample: Sample) -> None:
-        """Keep a sample that has arrived."""
-        self._samples.append(sample)
-        if self.turns:
-            self.turns.wake()
-
-    def try_recv(self) -> Sample | None:
-        if not self._samples:
-            self._remote.glance()
-        return self._samples.popleft() if self._samples else None
-
-    def recv(self) -> Sample:
-        while not self._samples:
-            if self._remote.closed:
-                raise EOFError
-            self._remote.await_more(float("inf"))
-        return self._samples.popleft()
-
-    def undeclare(self) -> None:
-        self._remote.undeclare(self._id)
-
-
-class RemoteOutlet:
-    """Says bytes under one key, by way of the door."""
-
-    matched = True
-
-    def __init__(self, remote: Remote, identity: int) -> None:
-        self._remote = remote
-        self._id = identity
-
-    def put(self, payload: bytes, encoding: str, attachment: bytes | None) -> None:
-        self._remote.put(Put(self._id, payload, encoding, attachment))

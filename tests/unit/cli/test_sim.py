@@ -1,0 +1,50 @@
+"""What a simulation says of whoever moves it."""
+
+import pytest
+
+from zteleop.cli import sim
+from zteleop.cli.sim import LOST_AFTER, TELL_AFTER, Attendant
+from zteleop.messages import Beat
+from zteleop.testing import Clock, FakeNode
+
+
+@pytest.fixture
+def node(clock: Clock, monkeypatch: pytest.MonkeyPatch) -> FakeNode:
+    monkeypatch.setattr(sim._company, "here", lambda session, robot: "no actuator is heard here")
+    return FakeNode(clock=clock)
+
+
+def beat(node: FakeNode, clock: Clock) -> None:
+    node.membership.robot.beat, node.membership.robot.at = Beat(1, clock.time, 0.0), clock.time
+
+
+def test_its_actuator_is_missed_once_and_told_when_it_comes_goes_and_comes_back(
+    node: FakeNode, clock: Clock
+) -> None:
+    attendant = Attendant(node)  # type: ignore[arg-type]
+    attendant.look()
+    assert node.warnings == []
+    clock.pass_by(TELL_AFTER)
+    attendant.look()
+    attendant.look()
+    (words,) = node.warnings
+    assert words.startswith("waits for pulses: no actuator of archangel is heard (no actuator is heard here)")
+    assert words.endswith("start zteleop actuator --robot archangel")
+    beat(node, clock)
+    attendant.look()
+    attendant.look()
+    assert node.infos == ["the actuator of archangel is heard, and moves it"]
+    clock.pass_by(LOST_AFTER)
+    attendant.look()
+    attendant.look()
+    assert node.warnings[1:] == ["the actuator of archangel is not heard any more; its chip stays as it is"]
+    beat(node, clock)
+    attendant.look()
+    assert len(node.infos) == 2
+
+
+def test_an_actuator_that_is_there_at_once_is_not_missed(node: FakeNode, clock: Clock) -> None:
+    beat(node, clock)
+    attendant = Attendant(node)  # type: ignore[arg-type]
+    attendant.look()
+    assert (node.warnings, len(node.infos)) == ([], 1)
