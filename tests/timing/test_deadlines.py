@@ -155,7 +155,7 @@ def test_a_robot_whose_watchdog_stood_still_for_long_waits_until_the_operator_le
         for _ in every(0.02, 50):
             assert rig.ticks == NEUTRAL
     # Another actuator may need longer to start and be heard; who begins before that must begin anew.
-    hear(statuses, lambda status: "did not hear this robot" in status.why, "a robot that is heard again")
+    hear(statuses, lambda status: status.state == "idle", "a robot that is heard again")
     with operator(node):
         driven(rig)
 

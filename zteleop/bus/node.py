@@ -15,12 +15,13 @@ from zteleop.bus.session import Session, open_session
 from zteleop.bus.settings import BusSettings
 from zteleop.bus.subscription import Received, Subscription
 from zteleop.bus.topics import topic_of
+from zteleop.bus.types import SERVICE, OwnTypes
 from zteleop.control.proof import Prover
 from zteleop.errors import ConfigError
 from zteleop.interfaces.parameters import Value
 from zteleop.machine import signals, stderr
 from zteleop.machine.ids import new_id
-from zteleop.messages import Log, Message
+from zteleop.messages import GetTypeRequest, GetTypeResponse, Log, Message
 
 M = TypeVar("M", bound=Message)
 Q = TypeVar("Q", bound=Message)
@@ -51,6 +52,7 @@ class Node:
             self.log = NodeLog(self.name, self._say, stderr.tell)
             self._log_publisher: Publisher[Log] | None = None
             self._parameters = Parameters(self.log.info)
+            self._types = OwnTypes(self._serve_types)
             if self.robot:
                 session.declare_token(presence.node_key(self.robot, self.name))
                 self._log_publisher = self.publisher("log", Log)
@@ -99,6 +101,7 @@ class Node:
             takes = " or ".join(accepted.__name__ for accepted in about.types)
             raise ConfigError(f"{topic} takes {takes}, found {', '.join(k.__name__ for k in kinds)}")
         self._notice_typo(topic, "publishes {}, which no robot hears")
+        self._types.add(name.robot, kinds)
         if not about.command:
             return Publisher(self.membership.outlet(name, kinds, about.urgent), kinds)
         return self._command_publisher(name, kinds, source, wait, as_typed(topic, name.robot))
@@ -150,6 +153,7 @@ class Node:
         message is dropped, counted, and said in the log unless somebody else does.
         """
         self._notice_typo(topic, "hears {}, which no robot says")
+        self._types.add(resolve(topic, self.robot).robot, _tuple(types))
         inbox: Subscription[M] = self.membership.inbox(topic, _tuple(types), depth, complain)
         if handler:
             self.membership.deliver(inbox, handler)
@@ -215,6 +219,10 @@ class Node:
 
         self._parameters.serve(serve)
         self.membership.session.declare_token(presence.parameters_key(robot, self.name))
+
+    def _serve_types(self, robot: str, tell: Callable[[GetTypeRequest], GetTypeResponse]) -> None:
+        name = Name(robot, f"{self.name}/{SERVICE}")
+        self._services.add(name, GetTypeRequest, GetTypeResponse, tell, stands=False)
 
     def every(self, period: float) -> Callable[[Callable[[], object]], Callable[[], object]]:
         """Decorate a function to run every `period` seconds in `spin`."""

@@ -3,11 +3,11 @@
     robot/<robot>/live/node/<node>/<process>
     robot/<robot>/live/sender/<sender>                            of commands, in hexadecimal
     robot/<robot>/live/pub/<node>/<process>/<type>/<topic...>    and sub likewise
-
     robot/<robot>/live/param/<node>/<process>                     what has parameters
     robot/<robot>/live/srv/<node>/<process>/<type>/<service...>
 
-A type's slashes are dots; a process is its host and number. Zenoh removes a token with its process.
+A type's slashes are dots, and one that does not come with zteleop has a hash of its fields behind a `~`; a
+process is its host and number. Zenoh removes a token with its process.
 """
 
 import os
@@ -18,7 +18,7 @@ from typing import Literal, NamedTuple
 
 from zteleop.bus.names import Name, is_robot
 from zteleop.bus.session import Sample, Session
-from zteleop.messages import Message
+from zteleop.messages import MESSAGES, Message
 
 Kind = Literal["pub", "sub"]
 DEPARTURES = 100
@@ -34,6 +34,8 @@ class Endpoint(NamedTuple):
     process: str
     type: str
     topic: str
+    hash: str = ""
+    """of the type's fields, where the type does not come with zteleop"""
 
 
 def process() -> str:
@@ -89,8 +91,19 @@ def _path(key: str) -> str | None:
 
 
 def endpoint_key(name: Name, kind: Kind, node: str, types: Iterable[type[Message]]) -> str:
-    ros_type = next((t.ros_type for t in types), "any").replace("/", ".")
+    first = next(iter(types), None)
+    ros_type = _told(first) if first else "any"
     return f"robot/{name.robot}/live/{kind}/{node}/{process()}/{ros_type}/{name.path.replace('*', '+')}"
+
+
+def _told(kind: type[Message]) -> str:
+    """Return a type as a token has it."""
+    dotted = kind.ros_type.replace("/", ".")
+    if kind.ros_type in MESSAGES:
+        return dotted
+    from zteleop.interfaces.schema import fingerprint  # only for a type of one's own
+
+    return f"{dotted}~{fingerprint(kind)}"
 
 
 def endpoints(session: Session) -> list[Endpoint]:
@@ -156,8 +169,9 @@ def _endpoints(session: Session, kind: str) -> list[Endpoint]:
         parts = key.split("/", 7)
         if len(parts) == 8:
             _, robot, _, _, node, where, ros_type, topic = parts
+            ros_type, _, digest = ros_type.partition("~")
             ros_type, topic = ros_type.replace(".", "/"), topic.replace("+", "*")
-            found.add(Endpoint(robot, kind, node, where, ros_type, topic))
+            found.add(Endpoint(robot, kind, node, where, ros_type, topic, digest))
     return sorted(found)
 
 

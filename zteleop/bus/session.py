@@ -50,6 +50,14 @@ class Ring(Protocol):
         """Hear no more."""
 
 
+class Overheard(Ring, Protocol):
+    """A ring that says what it has lost."""
+
+    @property
+    def skipped(self) -> int:
+        """How many samples were lost so far, as they came faster than they were read."""
+
+
 class Outlet(Protocol):
     """Says bytes under one key."""
 
@@ -82,6 +90,9 @@ class Session(Protocol):
 
     def subscribe(self, key: str, depth: int) -> Ring:
         """Return a ring of what is said under a key, of the `depth` newest."""
+
+    def overhear(self, key: str, depth: int) -> Overheard:
+        """Return a ring likewise, which counts what it loses: it costs more than one that does not."""
 
     def advertise(self, key: str, urgent: bool) -> Outlet:
         """Return what says bytes under a key; what is urgent overtakes the rest."""

@@ -6,6 +6,7 @@ from zteleop.messages import (
     Beat,
     DriveStatus,
     Int16MultiArray,
+    InterfaceButtons,
     Log,
     Message,
     Odometry,
@@ -54,6 +55,7 @@ TOPICS = {
         Topic("refusals", (Refusals,), depth=_NEWEST, every=_TOLD),
         Topic("watchdog", (WatchdogStatus,), depth=_NEWEST, every=_TOLD),
         Topic("odom", (Odometry,), every=_SAID),
+        Topic("interface_buttons", (InterfaceButtons,)),
         Topic("log", (Log,), depth=100),
     )
 }

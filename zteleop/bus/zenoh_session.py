@@ -8,6 +8,7 @@ from typing import Any, Protocol, Self
 import zenoh
 
 from zteleop.bus.loop import Loop
+from zteleop.bus.overheard import OverheardRing
 from zteleop.bus.pump import Pump
 from zteleop.bus.session import Inbox, Question, Reply, Sample
 from zteleop.errors import BusError
@@ -34,9 +35,16 @@ class ZenohSession:
         self.zenoh = zenoh_session
         self._connect = connect
         self._kept: list[Undeclarable] = []
+        self._overheard: list[OverheardRing] = []
 
     def subscribe(self, key: str, depth: int) -> "ZenohRing":
         return ZenohRing(self.zenoh.declare_subscriber(key, zenoh.handlers.RingChannel(depth)))
+
+    def overhear(self, key: str, depth: int) -> OverheardRing:
+        ring = OverheardRing(depth)
+        self._kept.append(self.hear(key, ring.take))
+        self._overheard.append(ring)
+        return ring
 
     def hear(self, key: str, passes: Callable[[Sample], None]) -> Undeclarable:
         """Call `passes` in a thread of zenoh's for what is said; raises BusError for a key that is none."""
@@ -127,6 +135,8 @@ class ZenohSession:
 
     def close(self) -> None:
         self.zenoh.close()  # type: ignore[no-untyped-call]
+        for ring in self._overheard:
+            ring.close()
 
     def __enter__(self) -> Self:
         return self

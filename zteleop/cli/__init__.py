@@ -7,6 +7,7 @@ VERBS = {
     "demo": "drive a simulated car, all in one",
     "keyboard": "drive with the keys of this terminal",
     "gamepad": "drive with a gamepad, while its dead-man is held",
+    "buttons": "drive with the two buttons on a robot, while they are held",
     "keys": "show what your terminal sends for each key, and what that does",
     "actuator": "obey commands: turn them into pulses for servos and ESCs",
     "stop": "stop a robot until it is released",

@@ -17,7 +17,7 @@ from zteleop.bus import presence
 from zteleop.bus.lane import trial
 from zteleop.bus.session import open_session
 from zteleop.bus.settings import PORT
-from zteleop.cli._company import who_is_here
+from zteleop.cli._company import by_topic, disagreements, who_is_here
 from zteleop.config import Config
 from zteleop.drivers.i2c import failure
 from zteleop.errors import ZteleopError
@@ -152,9 +152,12 @@ def robots(patient: Patient) -> Finding:
     settings = patient.settings
     try:
         with open_session(settings.bus, settle=True) as session:
-            found = presence.robots(session)
+            found, there = presence.robots(session), presence.endpoints(session)
     except (ZteleopError, ImportError) as error:
         return Finding(False, str(error))
+    told = (f"{topic}: {words}" for topic, those in by_topic(there).items() for words in disagreements(those))
+    if words := next(told, ""):
+        return Finding(False, words)
     if settings.robot and settings.robot not in found:
         return Finding(
             None, f"{settings.robot} is not heard, {who_is_here(found, settings.robot)}; is its actuator on?"

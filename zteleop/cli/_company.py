@@ -1,6 +1,6 @@
 """Who speaks and who hears on the bus, in words for whoever waits for them."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from zteleop.bus import presence
 from zteleop.bus.names import Name
@@ -29,6 +29,20 @@ def meets(name: Name, one: Endpoint) -> bool:
     if topic_of(one.topic).name != topic:
         return False
     return name.path in (topic, one.topic) or one.topic in (topic, f"{topic}/**")
+
+
+def disagreements(members: Iterable[Endpoint]) -> Iterator[str]:
+    """Yield who says on a topic what somebody does not hear: another type, or one with other fields."""
+    members = [one for one in members if one.type != "any" and not topic_of(one.topic).types]
+    speakers = {(one.node, one.process, one.type, one.hash) for one in members if one.kind == "pub"}
+    hearers = {(one.node, one.process, one.type, one.hash) for one in members if one.kind == "sub"}
+    for node, where, ros_type, digest in sorted(speakers):
+        for ear, there, wanted, its in sorted(hearers):
+            if (ros_type, digest) != (wanted, its):
+                differs = ros_type != wanted
+                said = ros_type if differs else f"{ros_type} {digest}"
+                heard = wanted if differs else its or "another"
+                yield f"{node} on {where} says {said}; {ear} on {there} hears {heard} alone, and drops it"
 
 
 def why_silent(name: Name, endpoints: Iterable[Endpoint], unreached: Sequence[str] = ()) -> str:

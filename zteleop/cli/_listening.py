@@ -10,7 +10,7 @@ from zteleop.bus import clock, presence
 from zteleop.bus.escape import printable
 from zteleop.bus.loop import Loop
 from zteleop.bus.names import Name, resolve
-from zteleop.bus.session import Delivery, Ring, Sample, Session, open_session
+from zteleop.bus.session import Delivery, Overheard, Ring, Sample, Session, open_session
 from zteleop.bus.topics import topic_of
 from zteleop.cli import _company, _options
 
@@ -20,6 +20,8 @@ MOST_COMPLAINTS = 100
 """of one run; a flood of nonsense has no more to say"""
 GONE_AFTER = 2.0
 """s of silence after which it looks whether anybody says something still"""
+TELL_SKIPPED_EVERY = 2.0
+"""s"""
 TELL_AFTER = 1.0
 """s of silence at the start until it says for whom it waits"""
 
@@ -54,6 +56,9 @@ class Listening:
         self._verb = verb
         self._session = session
         self._deliveries: list[Delivery] = []
+        self._rings: dict[str, Overheard] = {}
+        self._skipped: dict[str, int] = {}
+        """of each topic, how much was told to be skipped"""
         self._silent: dict[str, Name] = {}
         """the topics that have said nothing yet, by their names"""
         self._heard: dict[str, tuple[Name, float]] = {}
@@ -70,12 +75,14 @@ class Listening:
             self._heard[str(name)] = name, arrival.at
             handler(arrival)
 
-        inbox = _Inbox(self._session.subscribe(key, DEPTH))
+        ring = self._rings[str(name)] = self._session.overhear(key, DEPTH)
+        inbox = _Inbox(ring)
         self._deliveries.append(self._session.deliver(inbox, take, self.loop))
         self._session.declare_token(presence.endpoint_key(name, "sub", self._verb, about.types))
 
     def run(self) -> None:
         """Hear until the loop is stopped."""
+        self.loop.every(TELL_SKIPPED_EVERY, self._tell_skipped)
         if self.patient:
             self.loop.alarm(self._tell).ring_at(clock.now() + TELL_AFTER)
             self.loop.every(GONE_AFTER, self._notice_end)
@@ -99,6 +106,15 @@ class Listening:
         for delivery in self._deliveries:
             delivery.close()
         self.loop.close()
+
+    def _tell_skipped(self) -> None:
+        """Tell what came faster than it could be taken in."""
+        for name, ring in self._rings.items():
+            more = ring.skipped - self._skipped.get(name, 0)
+            if more:
+                self._skipped[name] = ring.skipped
+                words = f"skipped {more} messages on {name}, which came faster than they were taken in"
+                print(printable(f"zteleop {self._verb}: {words}"), file=sys.stderr, flush=True)
 
     def _notice_end(self) -> None:
         """Tell, once, of a topic that nobody says any more: what it said last is no longer so."""

@@ -3,7 +3,7 @@ from collections.abc import Iterable
 
 from zteleop.bus.escape import printable
 from zteleop.bus.presence import Endpoint
-from zteleop.cli import _options
+from zteleop.cli import _company, _options
 from zteleop.cli._graph import graph, types_of
 
 EXAMPLES = (
@@ -31,6 +31,7 @@ def run(arguments: argparse.Namespace) -> None:
 def lines(members: list[Endpoint], verbose: bool) -> Iterable[str]:
     """Yield what ros2 says of a topic, in its words."""
     yield f"Type: {', '.join(types_of(members))}"
+    yield from (f"Types disagree: {words}" for words in _company.disagreements(members))
     for kind, (called, _) in KINDS.items():
         those = [member for member in members if member.kind == kind]
         if verbose:
@@ -47,4 +48,6 @@ def _endpoint(member: Endpoint) -> Iterable[str]:
     yield f"Process: {member.process}"
     yield f"Topic: /{member.robot}/{member.topic}"
     yield f"Topic type: {member.type}"
+    if member.hash:
+        yield f"Topic type hash: {member.hash}"
     yield f"Endpoint type: {KINDS[member.kind][1]}"

@@ -1,6 +1,8 @@
 import argparse
 
-from zteleop.messages import message_type
+from zteleop.bus.escape import printable
+from zteleop.cli import _options
+from zteleop.cli._types import find_type
 from zteleop.messages.message import plain
 from zteleop.text.rendering import to_yaml
 
@@ -11,8 +13,13 @@ EXAMPLES = (
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("type", help="such as geometry_msgs/msg/Twist, or Twist")
+    _options.add(parser)
+    parser.add_argument(
+        "type", help="such as geometry_msgs/msg/Twist, or Twist, or what somebody here speaks"
+    )
 
 
 def run(arguments: argparse.Namespace) -> None:
-    print(f'"{to_yaml(plain(message_type(arguments.type).zero()))}"')
+    kind = find_type(arguments.type, _options.load(arguments).bus)
+    text = printable(to_yaml(plain(kind.zero())), keep="\n")
+    print(f'"{text}"')

@@ -1,7 +1,9 @@
 import argparse
 
+from zteleop.bus.escape import printable
+from zteleop.cli import _options
+from zteleop.cli._types import find_type
 from zteleop.interfaces.definition import Comments, definition
-from zteleop.messages import message_type
 
 EXAMPLES = (
     "zteleop interface show geometry_msgs/msg/Twist",
@@ -10,11 +12,15 @@ EXAMPLES = (
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("type", help="such as geometry_msgs/msg/Twist, or Twist")
+    _options.add(parser)
+    parser.add_argument(
+        "type", help="such as geometry_msgs/msg/Twist, or Twist, or what somebody here speaks"
+    )
     parser.add_argument("--all-comments", action="store_true", help="also those of the messages within it")
     parser.add_argument("--no-comments", action="store_true", help="without what its source says of it")
 
 
 def run(arguments: argparse.Namespace) -> None:
     comments: Comments = "all" if arguments.all_comments else "none" if arguments.no_comments else "first"
-    print(definition(message_type(arguments.type), comments))
+    kind = find_type(arguments.type, _options.load(arguments).bus)
+    print(printable(definition(kind, comments), keep="\n\t"))

@@ -16,10 +16,11 @@ from zteleop.bus.topics import topic_of
 from zteleop.cli import _company, _options
 from zteleop.cli._draft import Draft
 from zteleop.cli._outcome import Outcome
+from zteleop.cli._types import find_type
 from zteleop.control.resume import Resume
 from zteleop.control.settings import SOURCES
 from zteleop.errors import BusError, ConfigError, MessageError
-from zteleop.messages import DriveStatus, Message, message_type
+from zteleop.messages import DriveStatus, Message
 from zteleop.text.documents import Documents
 
 M = TypeVar("M", bound=Message)
@@ -69,7 +70,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> None:
     settings = _options.load(arguments)
-    kind = message_type(arguments.type)
+    kind = find_type(arguments.type, settings.bus)
     draft = Draft(kind, arguments.values)
     times = 1 if arguments.once else arguments.times
     robot = _options.robot_of(arguments.topic, settings)

@@ -7,7 +7,8 @@ from msgspec import Meta
 
 from zteleop.interfaces import integers
 from zteleop.interfaces.comments import field_comments, type_comment
-from zteleop.messages import Message
+from zteleop.interfaces.structs import definition_of
+from zteleop.messages import MESSAGES, Message
 from zteleop.messages.message import field_types
 
 Comments = Literal["first", "all", "none"]
@@ -36,10 +37,12 @@ def _lines(kind: type[Message], comments: Comments) -> Iterator[str]:
     for name, value in constants_of(kind):
         yield f"{'uint8' if 0 <= value < 256 else 'int32'} {name}={value}"
     inner: Comments = "all" if comments == "all" else "none"
+    written = None if kind.ros_type in MESSAGES else definition_of(kind)
+    texts = {field.name: field.type.text for field in written.fields} if written else {}
     for name, annotation in field_types(kind).items():
         field = field_of(annotation, kind.ros_type.partition("/")[0])
         note = "; ".join(text for text in (field.note, *said.get(name, "").splitlines()) if text)
-        yield f"{field.ros_type} {name}{note and f'  # {note}'}"
+        yield f"{texts.get(name, field.ros_type)} {name}{note and f'  # {note}'}"
         if field.message:
             yield from (f"{INDENT}{line}" for line in _lines(field.message, inner))
 

@@ -49,6 +49,15 @@ class Type(NamedTuple):
     length: int | None = None
     """Of a fixed or bounded array."""
 
+    @property
+    def text(self) -> str:
+        """What a .msg file says of it: `string<=20`, `geometry_msgs/Point[3]`."""
+        name = self.name.replace("/msg/", "/") + (f"<={self.bound}" if self.bound else "")
+        if not self.array:
+            return name
+        length = {"fixed": str(self.length), "bounded": f"<={self.length}", "unbounded": ""}[self.array]
+        return f"{name}[{length}]"
+
 
 class Field(NamedTuple):
     type: Type

@@ -9,7 +9,7 @@ from functools import cache
 
 from zteleop.errors import MessageError
 from zteleop.interfaces.declared import declared, parts
-from zteleop.interfaces.msg_text import Constant, Definition, Type, parse_message
+from zteleop.interfaces.msg_text import Constant, Definition, parse_message
 from zteleop.interfaces.told import struct_told
 from zteleop.messages import Message
 
@@ -58,21 +58,13 @@ def _lines(found: Definition) -> Iterator[str]:
     for constant in found.constants:
         yield f"{constant.type.name} {constant.name}={_value(constant)}"
     for field in found.fields:
-        yield f"{_type(field.type)} {field.name}"
+        yield f"{field.type.text} {field.name}"
 
 
 def _value(constant: Constant) -> str:
     if isinstance(constant.value, str):
         return '"' + constant.value.replace("\\", "\\\\").replace('"', '\\"') + '"'
     return str(constant.value).lower() if isinstance(constant.value, bool) else str(constant.value)
-
-
-def _type(kind: Type) -> str:
-    name = _short(kind.name) + (f"<={kind.bound}" if kind.bound else "")
-    if not kind.array:
-        return name
-    length = {"fixed": str(kind.length), "bounded": f"<={kind.length}", "unbounded": ""}[kind.array]
-    return f"{name}[{length}]"
 
 
 def _short(ros_type: str) -> str:

@@ -12,6 +12,24 @@ def is_half(ros_type: str) -> bool:
     return ros_type.endswith((REQUEST, RESPONSE))
 
 
+class GetTypeRequest(Message):
+    """What a type is made of that a node speaks, and others may not know."""
+
+    ros_type: ClassVar[str] = "zteleop_msgs/srv/GetType_Request"
+
+    type: str
+
+
+class GetTypeResponse(Message):
+    ros_type: ClassVar[str] = "zteleop_msgs/srv/GetType_Response"
+
+    found: bool
+    hash: str
+    """eight hexadecimal digits that two types share when their fields are the same"""
+    schema: str
+    """a JSON Schema, in which each message says its ROS type"""
+
+
 class EmptyRequest(Message):
     ros_type: ClassVar[str] = "std_srvs/srv/Empty_Request"
 

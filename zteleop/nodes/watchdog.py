@@ -200,7 +200,7 @@ class Watchdog:
         if self._child.link:
             self._node.membership.loop.unwatch(self._child.link.fileno())
         code = self._child.end(wait)
-        if code and code < 0 and not late:
+        if wait and code and code < 0:  # it ended by itself, or somebody ended it
             why = f"{why}, by {signal.Signals(-code).name}"
         self._rest()
         if self._never_stepped and code and code > 0:  # it has said why, in a sentence of its own
@@ -269,7 +269,8 @@ class Watchdog:
         if self._hand.at_rest:
             self._why = f"ended, and {robot} is at rest: its chip reads neutral"
             self._node.log.info(f"ends: {robot} is at rest, its chip reads neutral")
-            self._tell_status(ended=True)
+            if self._child.newest:  # which one that never stepped has not
+                self._tell_status(ended=True)
         elif not self._never_stepped:
             self._node.log.error(f"ends, and {robot} may move: neutral cannot be written; cut its power")
 

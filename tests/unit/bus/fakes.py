@@ -32,6 +32,7 @@ class Ring:
 
     def __init__(self, *samples: Sample) -> None:
         self.samples = deque(samples)
+        self.skipped = 0
         self.declared = True
 
     def undeclare(self) -> None:
@@ -95,6 +96,9 @@ class Session:
         ring = self.rings.setdefault(key, Ring())
         ring.declared = True
         return ring
+
+    def overhear(self, key: str, depth: int) -> Ring:
+        return self.subscribe(key, depth)
 
     def advertise(self, key: str, urgent: bool) -> Outlet:
         return self.outlets.setdefault(key, (Outlet(), urgent))[0]

@@ -1,8 +1,16 @@
 import pytest
 
-from zteleop.bus.names import resolve
+from zteleop.bus.names import Name, resolve
 from zteleop.bus.presence import Endpoint, Kind, process
-from zteleop.cli._company import by_topic, members, who_hears, who_is_here, why_silent
+from zteleop.cli._company import (
+    by_topic,
+    disagreements,
+    meets,
+    members,
+    who_hears,
+    who_is_here,
+    why_silent,
+)
 
 
 def end(
@@ -79,3 +87,58 @@ def test_who_speaks_is_told_who_hears_or_what_was_meant(topic: str, words: str) 
 def test_robots_that_are_here_are_named_once_in_order() -> None:
     assert who_is_here(["zoe", "abe", "zoe"]) == "heard here: abe, zoe"
     assert who_is_here(["zoe", "abe"], "student") == "heard here: abe, zoe"
+
+
+def typed(kind: str, node: str, ros_type: str, digest: str = "", topic: str = "soil") -> Endpoint:
+    return Endpoint("abe", kind, node, "pi-7", ros_type, topic, digest)
+
+
+@pytest.mark.parametrize(
+    ("speaker", "hearer", "told"),
+    [
+        (("a/msg/Soil", "11"), ("a/msg/Soil", "11"), []),
+        (("a/msg/Soil", "11"), ("any", ""), []),
+        (
+            ("a/msg/Soil", "11"),
+            ("a/msg/Soil", "22"),
+            ["nose on pi-7 says a/msg/Soil 11; ear on pi-7 hears 22 alone, and drops it"],
+        ),
+        (
+            ("a/msg/Soil", "11"),
+            ("std_msgs/msg/String", ""),
+            ["nose on pi-7 says a/msg/Soil; ear on pi-7 hears std_msgs/msg/String alone, and drops it"],
+        ),
+    ],
+)
+def test_who_disagree_about_a_type_are_told_by_name(
+    speaker: tuple[str, str], hearer: tuple[str, str], told: list[str]
+) -> None:
+    members = [typed("pub", "nose", *speaker), typed("sub", "ear", *hearer)]
+    assert list(disagreements(members)) == told
+
+
+def test_a_command_of_two_types_is_no_disagreement() -> None:
+    members = [
+        typed("pub", "nose", "geometry_msgs/msg/Twist", topic="cmd_vel/program"),
+        typed("sub", "ear", "geometry_msgs/msg/TwistStamped", topic="cmd_vel/**"),
+    ]
+    assert list(disagreements(members)) == []
+
+
+@pytest.mark.parametrize(
+    ("path", "found"),
+    [
+        ("cmd_vel", ["keyboard", "nav", "ear", "all"]),
+        ("cmd_vel/keyboard", ["keyboard", "all"]),
+        ("cmd_vel/nav", ["nav", "ear", "all"]),
+    ],
+)
+def test_the_name_of_one_source_means_that_one_and_the_plain_name_all(path: str, found: list[str]) -> None:
+    everybody = [
+        typed("pub", "keyboard", "any", topic="cmd_vel/keyboard"),
+        typed("pub", "nav", "any", topic="cmd_vel/nav"),
+        typed("sub", "ear", "any", topic="cmd_vel/nav"),
+        typed("sub", "all", "any", topic="cmd_vel/**"),
+        typed("pub", "sim", "any", topic="odom"),
+    ]
+    assert [one.node for one in everybody if meets(Name("abe", path), one)] == found

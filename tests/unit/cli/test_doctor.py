@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from zteleop.bus.lane import trial
+from zteleop.bus.presence import Endpoint
 from zteleop.cli import _checkup, doctor
 from zteleop.cli._checkup import CHECKS, Finding, Patient
 from zteleop.cli._run import run_verb
@@ -26,6 +27,7 @@ def heard(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     found: list[str] = []
     monkeypatch.setattr(_checkup, "open_session", lambda bus, settle: nullcontext())
     monkeypatch.setattr(_checkup.presence, "robots", lambda session: found)
+    monkeypatch.setattr(_checkup.presence, "endpoints", lambda session: [])
     return found
 
 
@@ -151,6 +153,17 @@ def test_a_robot_that_is_meant_and_not_heard_is_worth_knowing(heard: list[str]) 
     assert robots(meant).good is None
     heard.append("abe")
     assert robots(meant).good
+
+
+def test_who_disagree_about_a_type_hinder(heard: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    there = [
+        Endpoint("abe", kind, node, "pi-7", "acme_msgs/msg/Soil", "soil", digest)
+        for kind, node, digest in (("pub", "nose", "11"), ("sub", "ear", "22"))
+    ]
+    monkeypatch.setattr(_checkup.presence, "endpoints", lambda session: there)
+    good, words = CHECKS["robots"](CAR)
+    assert good is False
+    assert words.startswith("/abe/soil: nose on pi-7 says acme_msgs/msg/Soil 11; ear on pi-7 hears 22 alone")
 
 
 @pytest.mark.parametrize("kind", [BusError, ModuleNotFoundError])

@@ -33,6 +33,7 @@ class RemoteRing:
         self._way = way
         self._id = identity
         self._samples: deque[Sample] = deque(maxlen=depth)
+        self.skipped = 0
         self.turns: Turns | None = None
 
     @property
@@ -41,6 +42,7 @@ class RemoteRing:
 
     def take(self, sample: Sample) -> None:
         """Keep a sample that has arrived."""
+        self.skipped += len(self._samples) == self._samples.maxlen
         self._samples.append(sample)
         if self.turns:
             self.turns.wake()

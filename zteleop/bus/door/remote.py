@@ -67,6 +67,9 @@ class Remote:
     def subscribe(self, key: str, depth: int) -> RemoteRing:
         return self._hear(Subscribe(next(self._ids), key, depth))
 
+    def overhear(self, key: str, depth: int) -> RemoteRing:
+        return self.subscribe(key, depth)
+
     def watch_tokens(self, selector: str, depth: int, history: bool = False) -> RemoteRing:
         return self._hear(WatchTokens(next(self._ids), selector, depth, history))
 
