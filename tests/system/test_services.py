@@ -186,3 +186,18 @@ def test_what_was_set_outlives_an_actuator_that_is_killed(rig: Rig) -> None:
 
 def _actuators(rig: Rig) -> list[int]:
     return [process.child for process in rig._processes if process.child]
+
+
+def test_what_a_full_stick_means_is_changed_from_elsewhere_and_by_keys(rig: Rig) -> None:
+    keyboard = rig.keyboard("--drive", "hold")
+    keyboard.shows("full      0.50 m/s")
+    assert asks(rig, "param", "set", "keyboard", "speeds.forward", "0.2")[0] == 0
+    keyboard.shows("full      0.20 m/s")
+    keyboard.type("u")
+    keyboard.shows("full      0.22 m/s")
+    until(
+        lambda: asks(rig, "param", "get", "keyboard", "speeds.forward", "--hide-type")[1][:4] == "0.22",
+        "0.22",
+    )
+    keyboard.type("q")
+    assert keyboard.ends() == 0

@@ -27,14 +27,12 @@ class Input(Protocol):
     """It was at neutral since this was last taken, be it between two acts that came at once"""
     wish: Wish | None
     """What it asks of the robot besides; whoever takes it leaves None. A release never takes back a stop."""
+    speeds: Speeds
+    """What a full stick means; the robot bounds it"""
 
     @property
     def finished(self) -> bool:
         """The operator asked to end."""
-
-    @property
-    def speeds(self) -> Speeds:
-        """What a full stick means."""
 
     def fileno(self) -> int | None:
         """Return what turns readable when something was done; None for a device without a file."""

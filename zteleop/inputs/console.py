@@ -77,6 +77,10 @@ class Console:
         """What a full stick means."""
         return self.pad.speeds
 
+    @speeds.setter
+    def speeds(self, speeds: Speeds) -> None:
+        self.pad.speeds = speeds
+
     @property
     def about(self) -> list[tuple[str, str]]:
         """What the operator must do to drive, or why he cannot."""

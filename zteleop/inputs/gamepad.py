@@ -3,6 +3,7 @@
 from typing import Self
 
 from zteleop.control.stick import Speeds, Stick
+from zteleop.errors import ConfigError
 from zteleop.inputs import Drive, Wish
 from zteleop.inputs.gamepad_controls import Controls
 from zteleop.inputs.gamepad_map import FORGET, GamepadSettings, Moved, Pads
@@ -50,6 +51,12 @@ class Gamepad:
     def speeds(self) -> Speeds:
         """What a full stick means: the robot's most while turbo is held."""
         return self._fastest if self._controls.presses("turbo") else self._speeds
+
+    @speeds.setter
+    def speeds(self, speeds: Speeds) -> None:
+        if self._controls.presses("turbo"):
+            raise ConfigError("turbo is held, which is as fast as the robot can; let go of it first")
+        self._speeds = speeds
 
     def fileno(self) -> int | None:
         """Return what turns readable when a control moved; None where nothing does."""

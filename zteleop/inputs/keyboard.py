@@ -50,7 +50,7 @@ class Keyboard:
         self.idle_limit = IDLE_LIMIT
         self._bindings = bindings(keys or {}, keymap)
         self._typed: Keys = typed or Typed(terminal or open_terminal())
-        self._speed_keys = SpeedKeys(speeds or Speeds())
+        self.speed_keys = SpeedKeys(speeds or Speeds())
         self._wishes = Wishes(switches(self._bindings))
         self._levers = Levers(steps)
         self._holding = Holding()
@@ -75,7 +75,11 @@ class Keyboard:
     @property
     def speeds(self) -> Speeds:
         """What a full stick means, in m/s and rad/s."""
-        return self._speed_keys.speeds
+        return self.speed_keys.speeds
+
+    @speeds.setter
+    def speeds(self, speeds: Speeds) -> None:
+        self.speed_keys.speeds = speeds
 
     @property
     def wish(self) -> Wish | None:
@@ -149,7 +153,7 @@ class Keyboard:
             self.reset(self._now)
         self._holding.steers = vehicle.steers
         self.idle_limit = min(IDLE_LIMIT, vehicle.operator_silence)
-        self._speed_keys.fit(vehicle)
+        self.speed_keys.fit(vehicle)
 
     def read(self, now: float) -> bool:
         """Take in what happened to the keys, without blocking; True when somebody acts."""
@@ -272,22 +276,18 @@ class Keyboard:
         """Show what each key does, or hide it."""
         self._wishes.help = not self._wishes.help
 
-    def scale(self, forward: float = 1.0, turn: float = 1.0) -> None:
-        """Change what a full stick means by these factors."""
-        self._speed_keys.scale(forward, turn)
-
 
 ACTIONS: dict[str, Callable[[Keyboard], None]] = {
     "stop": Keyboard.stop,
     "neutral": Keyboard.neutral,
     "stop robot": Keyboard.stop_robot,
     "release robot": Keyboard.release_robot,
-    "faster": lambda keyboard: keyboard.scale(forward=FASTER),
-    "slower": lambda keyboard: keyboard.scale(forward=SLOWER),
-    "turn faster": lambda keyboard: keyboard.scale(turn=FASTER),
-    "turn slower": lambda keyboard: keyboard.scale(turn=SLOWER),
-    "all faster": lambda keyboard: keyboard.scale(forward=FASTER, turn=FASTER),
-    "all slower": lambda keyboard: keyboard.scale(forward=SLOWER, turn=SLOWER),
+    "faster": lambda keyboard: keyboard.speed_keys.scale(forward=FASTER),
+    "slower": lambda keyboard: keyboard.speed_keys.scale(forward=SLOWER),
+    "turn faster": lambda keyboard: keyboard.speed_keys.scale(turn=FASTER),
+    "turn slower": lambda keyboard: keyboard.speed_keys.scale(turn=SLOWER),
+    "all faster": lambda keyboard: keyboard.speed_keys.scale(forward=FASTER, turn=FASTER),
+    "all slower": lambda keyboard: keyboard.speed_keys.scale(forward=SLOWER, turn=SLOWER),
     "nothing": lambda keyboard: None,
     "quit": Keyboard.quit,
     "suspend": Keyboard.ask_to_suspend,

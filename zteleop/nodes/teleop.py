@@ -11,6 +11,7 @@ from zteleop.errors import BusError, ConfigError
 from zteleop.inputs import Input, Wish
 from zteleop.messages import Header, Pwm, Twist, TwistStamped, Vehicle
 from zteleop.nodes.sight import Sight
+from zteleop.nodes.speed_parameters import offer_speeds
 from zteleop.nodes.stop_request import Stopping, person
 from zteleop.screen.view import View
 
@@ -52,6 +53,7 @@ class Teleop:
         self._wanted: Twist | Pwm | None = None
         self._picture = node.membership.loop.alarm(self._draw)
         device.fit(vehicle)
+        offer_speeds(node, device)
 
     def run(self) -> None:
         """Drive until the operator has enough; the last word is neutral.

@@ -154,6 +154,8 @@ def test_bounds_have_words(bounds: Bounds, words: str) -> None:
     if words:
         with pytest.raises(ConfigError, match=words):
             bounds.check(99.0 if bounds.most else 0.0)
+        with pytest.raises(ConfigError, match=words):
+            bounds.check(float("nan"))
     else:
         bounds.check("anything")
 

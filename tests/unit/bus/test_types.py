@@ -33,7 +33,11 @@ def told() -> dict[str, Callable[[GetTypeRequest], GetTypeResponse]]:
 
 @pytest.fixture
 def types(told: dict[str, Callable[[GetTypeRequest], GetTypeResponse]]) -> OwnTypes:
-    return OwnTypes(told.__setitem__)
+    def serve(robot: str, tell: Callable[[GetTypeRequest], GetTypeResponse]) -> None:
+        assert robot not in told
+        told[robot] = tell
+
+    return OwnTypes(serve)
 
 
 def test_only_who_speaks_a_type_of_its_own_tells_of_it(

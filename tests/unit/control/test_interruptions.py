@@ -381,3 +381,27 @@ def test_a_program_that_paused_begins_anew_however_long_it_paused(seconds: float
     assert moves(robot.hold(FORWARD, 0.5))
     robot.wait(seconds)
     assert moves(robot.hold(FORWARD, 0.3, age=0.1))
+
+
+def test_who_waits_to_go_on_is_told_once_and_is_not_said_to_be_refused() -> None:
+    robot = Robot()
+    robot.hold(FORWARD, 0.2)
+    robot.drive.admission.interrupt("it stood still", robot.now, 2.0)
+    robot.say(FORWARD, act=False)
+    assert robot.step().why == "it stood still; keyboard 0001 goes on with its next act"
+
+
+def test_a_pause_that_began_with_an_interruption_is_told_as_that_one() -> None:
+    robot = Robot()
+    robot.hold(FORWARD, 0.2)
+    robot.drive.admission.interrupt("its actuator came late", robot.now, 2.0)
+    robot.drive.admission.pause("deaf", "the watchdog does not hear it", robot.now)
+    assert robot.step().why == "the watchdog does not hear it"
+    robot.now += 0.1
+    robot.drive.admission.resume("deaf", "the watchdog did not hear it", robot.now)
+    assert robot.step().why.startswith("its actuator came late; ")
+    robot.now += 0.1
+    robot.drive.admission.pause("deaf", "the watchdog does not hear it", robot.now)
+    robot.now += 0.1
+    robot.drive.admission.resume("deaf", "the watchdog did not hear it", robot.now)
+    assert robot.step().why.startswith("the watchdog did not hear it; ")

@@ -3,6 +3,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from zteleop.control.stick import Speeds, Stick, to_twist
+from zteleop.errors import ConfigError
 from zteleop.inputs import Wish
 from zteleop.inputs.gamepad import RELEASE_HELD, Gamepad
 from zteleop.inputs.gamepad_map import FORGET, GamepadSettings, Moved
@@ -139,6 +140,15 @@ def test_turbo_is_all_the_robot_can_and_enables_by_itself(bench, tank):
     assert bench.move({LB: 0.0})
     assert bench.stick.deadman
     assert not bench.move({RB: 0.0})
+
+
+def test_what_a_full_stick_means_is_not_changed_while_turbo_says_so(bench, tank):
+    bench.move({RB: 1.0})
+    with pytest.raises(ConfigError, match="turbo is held"):
+        bench.gamepad.speeds = Speeds(0.1, 0.1)
+    bench.move({RB: 0.0})
+    bench.gamepad.speeds = Speeds(0.1, 0.1)
+    assert bench.gamepad.speeds == Speeds(0.1, 0.1)
 
 
 def test_what_is_held_when_a_pad_comes_must_be_let_go(tank):

@@ -407,6 +407,7 @@ def test_a_next_door_is_asked_too_and_an_answer_to_the_one_before_is_none(house:
     assert asker.answers == []
     asker.ask(b"now")
     house.settle(guest)
+    asked[0].answer(b"to nobody", "")
     asked[1].answer(b"yes", "")
     house.settle(guest)
     assert asker.answers == [(b"yes", "")]
