@@ -170,6 +170,7 @@ def test_a_robot_is_slowed_down_while_it_drives_and_stays_so(rig: Rig, node: Nod
     assert "limits.speed is set to 0.3 m/s" in asks(rig, "why")[1]
     motors.let_go()
     until(lambda: rig.ticks == NEUTRAL, "rest")
+    assert asks(rig, "param", "get", "actuator", "deadlines.operator")[1] == "Double value is: 5.0\n"
     told = asks(rig, "param", "set", "actuator", "limits.speed", "3.5")
     assert (told[0], "expected 0.03 to 3, found 3.5" in told[2]) == (1, True)
 

@@ -73,6 +73,15 @@ class Admission:
         """The claim that drove last, unless it was let go or has lost its place."""
         return next((claim for claim in self.mux.claims if claim.sender == self._drove), None)
 
+    @property
+    def operator_silence(self) -> float:
+        """s without an act, after which the robot rests; others may shorten it between two steps."""
+        return self.silences.operator
+
+    @operator_silence.setter
+    def operator_silence(self, seconds: float) -> None:
+        self.silences.operator = self.gate.operator_silence = seconds
+
     def beat(self, now: float) -> Beat:
         """Return what commands must echo from now on."""
         return Beat(self.gate.epoch, now, self.gate.floor)

@@ -63,6 +63,8 @@ class Gate:
 
     def __init__(self, deadlines: Deadlines, epoch: int, now: float, grace: float = 0.0) -> None:
         self._deadlines = deadlines
+        self.operator_silence = deadlines.operator
+        """s without an act, after which nothing counts"""
         self._grace = grace
         self._senders: OrderedDict[int, Seen] = OrderedDict()
         self.restart(epoch, now)
@@ -135,7 +137,7 @@ class Gate:
             return None
         if not self._may_begin(proof, seen):  # first: a claim that is over lacks more than an act
             return self._over if proof.began <= self._floor else Refusal.NOT_FROM_NEUTRAL
-        if not 0 <= now - proof.acted <= self._deadlines.operator:
+        if not 0 <= now - proof.acted <= self.operator_silence:
             return Refusal.OPERATOR_IDLE
         resumed = max(self._resumed, seen.resumed)
         return None if proof.beat > resumed and proof.acted > resumed else Refusal.INTERRUPTED

@@ -50,7 +50,7 @@ class Silences:
 
     def __init__(self, sources: Mapping[str, Source], operator: float) -> None:
         self._sources = sources
-        self._operator = operator
+        self.operator = operator
 
     def silent(self, claim: Claim, now: float) -> bool:
         """Say whether nothing more was heard of a claim's sender, or by its sender."""
@@ -59,7 +59,7 @@ class Silences:
 
     def idle(self, claim: Claim, now: float) -> bool:
         """Say whether nobody acts any more."""
-        return not now - claim.acted <= self._operator
+        return not now - claim.acted <= self.operator
 
     def over(self, claim: Claim, now: float) -> bool:
         return self.silent(claim, now) or self.idle(claim, now)

@@ -506,3 +506,13 @@ def test_a_stop_is_no_softer_for_a_cap() -> None:
 
 def test_nobody_who_drives_is_bounded_by_the_vehicle_alone() -> None:
     assert Robot().step().bound == (3.0, "vehicle", 0.0)
+
+
+def test_an_operator_who_must_act_more_often_is_held_to_it_from_the_next_step() -> None:
+    robot = Robot()
+    robot.drive.admission.operator_silence = 1.0
+    assert robot.hold(FORWARD, 0.5).state == "driving"
+    assert robot.hold(FORWARD, 0.6, act=False).state == "driving"
+    step = robot.hold(FORWARD, 0.4, act=False)
+    assert step.state == "operator idle"
+    assert robot.say(FORWARD, act=False) is Refusal.OPERATOR_IDLE

@@ -1,6 +1,6 @@
 """A stop file without a file, and one of limits."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from zteleop.errors import DeviceError
 from zteleop.messages import Stop
@@ -59,8 +59,8 @@ class Shelf:
 class LimitsShelf:
     """Keeps limits, unless a test says that it cannot."""
 
-    def __init__(self, **values: float) -> None:
-        self.values = dict(values)
+    def __init__(self, values: Mapping[str, float] | None = None) -> None:
+        self.values = dict(values or {})
         self.full = self.torn = False
         """Nothing can be kept, or read."""
 

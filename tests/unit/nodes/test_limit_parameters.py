@@ -20,12 +20,12 @@ class Bench:
         LimitParameters(self.node, self.drive, self.shelf, self.notes.append)  # type: ignore[arg-type]
 
     def set(self, name: str, value: float) -> None:
-        self.node.parameters[f"limits.{name}"].set(value)
+        self.node.parameters[name if "." in name else f"limits.{name}"].set(value)
 
 
 def test_each_limit_is_a_parameter_that_begins_as_the_settings_say() -> None:
     bench = Bench()
-    assert set(bench.node.parameters) == {f"limits.{name}" for name in LIMITS}
+    assert list(bench.node.parameters) == list(LIMITS)
     values = {name: one.value for name, one in bench.node.parameters.items()}
     assert (values["limits.speed"], values["limits.acceleration"]) == (2.0, 3.0)
     assert values["limits.turn"] == pytest.approx(Ackermann().max_turn)
@@ -42,11 +42,11 @@ def test_a_limit_is_narrowed_at_once_kept_and_noted() -> None:
     bench.set("speed", 0.3)
     assert bench.drive.limits.speed == 0.3
     assert bench.drive.settings.limits.speed == 2.0
-    assert (bench.shelf.values, bench.notes) == ({"speed": 0.3}, ["limits.speed is 0.3"])
+    assert (bench.shelf.values, bench.notes) == ({"limits.speed": 0.3}, ["limits.speed is 0.3"])
     bench.set("turn", 1.0)
-    assert bench.shelf.values == {"speed": 0.3, "turn": 1.0}
+    assert bench.shelf.values == {"limits.speed": 0.3, "limits.turn": 1.0}
     bench.set("speed", 2.0)
-    assert bench.shelf.values == {"turn": 1.0}
+    assert bench.shelf.values == {"limits.turn": 1.0}
 
 
 @pytest.mark.parametrize("value", [2.1, 0.0, -1.0, 0.019])
@@ -58,14 +58,14 @@ def test_none_is_wider_than_the_settings_and_none_is_a_stop(value: float) -> Non
 
 
 def test_what_was_set_before_holds_after_a_restart() -> None:
-    bench = Bench(LimitsShelf(speed=0.3, turn=0.5))
+    bench = Bench(LimitsShelf({"limits.speed": 0.3, "limits.turn": 0.5}))
     assert (bench.drive.limits.speed, bench.drive.limits.turn) == (0.3, 0.5)
     assert bench.node.parameters["limits.speed"].value == 0.3
 
 
 @pytest.mark.parametrize(("kept", "holds"), [(9.0, 2.0), (0.0, 0.02), (-3.0, 0.02)])
 def test_what_was_kept_is_no_wider_than_the_settings_of_today(kept: float, holds: float) -> None:
-    assert Bench(LimitsShelf(speed=kept, wings=3.0)).drive.limits.speed == pytest.approx(holds)
+    assert Bench(LimitsShelf({"limits.speed": kept, "wings": 3.0})).drive.limits.speed == pytest.approx(holds)
 
 
 def test_a_disk_that_keeps_nothing_is_told_of_and_the_limit_holds() -> None:
@@ -78,9 +78,20 @@ def test_a_disk_that_keeps_nothing_is_told_of_and_the_limit_holds() -> None:
 
 
 def test_a_file_that_cannot_be_read_is_told_of_and_the_settings_hold() -> None:
-    shelf = LimitsShelf(speed=0.3)
+    shelf = LimitsShelf({"limits.speed": 0.3})
     shelf.torn = True
     bench = Bench(shelf)
     assert bench.drive.limits.speed == 2.0
     (words,) = bench.node.warnings
     assert words.startswith("limits that were set before are not known")
+
+
+def test_the_time_without_an_act_is_shortened_and_never_lengthened() -> None:
+    bench = Bench()
+    bench.set("deadlines.operator", 2.0)
+    assert bench.drive.admission.operator_silence == bench.drive.admission.gate.operator_silence == 2.0
+    assert bench.shelf.values == {"deadlines.operator": 2.0}
+    for value in (5.1, 0.4):
+        with pytest.raises(ConfigError, match=r"expected 0.5 to 5"):
+            bench.set("deadlines.operator", value)
+    assert Bench(bench.shelf).drive.admission.operator_silence == 2.0
