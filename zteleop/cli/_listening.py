@@ -20,6 +20,8 @@ MOST_COMPLAINTS = 100
 """of one run; a flood of nonsense has no more to say"""
 GONE_AFTER = 2.0
 """s of silence after which it looks whether anybody says something still"""
+LOOK_AGAIN = 10.0
+"""s until it looks once more, where somebody is there who only pauses"""
 TELL_SKIPPED_EVERY = 2.0
 """s"""
 TELL_AFTER = 1.0
@@ -63,6 +65,8 @@ class Listening:
         """the topics that have said nothing yet, by their names"""
         self._heard: dict[str, tuple[Name, float]] = {}
         """those that have, and when"""
+        self._look_at: dict[str, float] = {}
+        """when to look whether anybody says them still"""
 
     def hear(self, name: Name, handler: Callable[[Arrival], object]) -> None:
         """Hand over whatever is said on a topic; of a command topic, by every source."""
@@ -73,6 +77,7 @@ class Listening:
         def take(arrival: Arrival) -> None:
             self._silent.pop(str(name), None)
             self._heard[str(name)] = name, arrival.at
+            self._look_at[str(name)] = arrival.at + GONE_AFTER
             handler(arrival)
 
         ring = self._rings[str(name)] = self._session.overhear(key, DEPTH)
@@ -119,9 +124,10 @@ class Listening:
     def _notice_end(self) -> None:
         """Tell, once, of a topic that nobody says any more: what it said last is no longer so."""
         now = clock.now()
-        ended = [(name, at) for name, at in self._heard.values() if now - at > GONE_AFTER]
-        endpoints = self.endpoints() if ended else []
-        for name, at in ended:
+        silent = [(name, at) for key, (name, at) in self._heard.items() if now > self._look_at[key]]
+        endpoints = self.endpoints() if silent else []
+        for name, at in silent:
+            self._look_at[str(name)] = now + LOOK_AGAIN
             if not _company.members(name, "pub", endpoints):
                 words = f"{name} has been silent for {now - at:.0f} s, and nobody publishes it any more"
                 print(printable(f"zteleop {self._verb}: {words}"), file=sys.stderr, flush=True)

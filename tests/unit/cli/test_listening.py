@@ -1,5 +1,7 @@
 """What a verb that listens says of silence."""
 
+from itertools import pairwise
+
 import pytest
 from unit.bus.fakes import Session, put
 
@@ -42,4 +44,20 @@ def test_what_nobody_says_any_more_is_told_once_and_a_pause_is_not(
         else ("zteleop echo: abe/odom has been silent for 2 s, and nobody publishes it any more\n")
     )
     assert capsys.readouterr().err == told
+    ears.close()
+
+
+def test_where_somebody_only_pauses_it_does_not_ask_everybody_again_and_again(clock: Clock) -> None:
+    session = Session([presence.endpoint_key(ODOM, "pub", "sim", [Odometry])])
+    ears = Listening("echo", session)  # type: ignore[arg-type]
+    session.subscribe(ODOM.key, 1).samples.append(put(b"{}", key=ODOM.key))
+    ears.hear(ODOM, lambda arrival: ears.loop.stop())
+    ears.loop.run()
+    looks: list[float] = []
+    ears.endpoints = lambda: looks.append(clock.time) or []  # type: ignore[func-returns-value,method-assign]
+    for _ in range(20):
+        clock.pass_by(1.0)
+        ears._heard[str(ODOM)] = ODOM, 0.0  # as where somebody publishes it still
+        ears._notice_end()
+    assert [round(later - sooner) for sooner, later in pairwise(looks)] == [11]
     ears.close()
