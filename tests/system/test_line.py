@@ -291,7 +291,7 @@ def test_without_a_terminal_it_says_so(rig: Rig) -> None:
 
 
 def test_five_seconds_without_a_key_bring_steering_and_throttle_to_neutral(left: Left) -> None:
-    left.keyboard.shows(f"{OUTPUT}[375, 370]", "at rest")
+    left.keyboard.shows(f"{OUTPUT}[375, 370]", "you ask for nothing")
     stands(left.rig, *NEUTRAL)
     assert [ticks for _, ticks in left.watch.changes][-2:] == [(390, 374), NEUTRAL]
     left.keyboard.type(UP)

@@ -33,12 +33,15 @@ ADVICE: dict[str, str] = {
 class Answer:
     """Follows what the robot says to one sender, and says to its log what changed."""
 
-    def __init__(self, sender: str, topic: str, robot: str, heard: Heard, log: NodeLog) -> None:
+    def __init__(
+        self, sender: str, topic: str, robot: str, heard: Heard, log: NodeLog, hint: str = ""
+    ) -> None:
         self._sender = sender
         self._topic = topic
         self._robot = robot
         self._heard = heard
         self._log = log
+        self._hint = hint
         self._since = clock.now()
         self._unheard = False
         self._told: Refusals | None = heard.refusals
@@ -50,7 +53,9 @@ class Answer:
 
     @property
     def refused(self) -> str:
-        """The robot's words; nothing while what is said counts, or nobody knows."""
+        """Why what is said does not count, in the robot's words; nothing while it does, or nobody knows."""
+        if self._unheard:
+            return f"robot {self._robot} is not heard"
         return self._words if clock.now() - self._at <= LASTS else ""
 
     def miss(self) -> None:
@@ -59,7 +64,7 @@ class Answer:
         more = " any more" if self._heard.beat else ""
         self._log.warn(
             f"robot {self._robot} is not heard{more}; what is said on {self._topic} moves nothing "
-            "until its actuator is on (zteleop list shows who is)"
+            f"until its actuator is on (zteleop list shows who is){self._hint}"
         )
 
     def heed(self, moving: bool) -> None:

@@ -30,6 +30,9 @@ V = TypeVar("V", bound=Value)
 Types = type[M] | tuple[type[M], ...]
 
 
+READS_NO_FILE = "; where it is, a program says by bus=BusSettings(connect=[...]): it reads no config.toml"
+
+
 class Node:
     """Joins the bus for as long as its `with` lasts; handlers and timers run in `spin`."""
 
@@ -44,6 +47,7 @@ class Node:
         self._commands: list[Publisher[Any]] = []
         self.name = chunk(name, "a node's name")
         self.robot = robot_name(robot) if robot else None
+        self._hint = "" if bus or session else READS_NO_FILE
         session = session or open_session(bus or BusSettings())
         try:
             # the insides, for whoever needs the session, the loop, or what is heard of robots
@@ -123,7 +127,7 @@ class Node:
         heard = self.membership.heard(name.robot)
         found = heard.wait() if wait else True
         sender = new_id()
-        answer = Answer(f"{sender:x}", said, name.robot, heard, self.log)
+        answer = Answer(f"{sender:x}", said, name.robot, heard, self.log, self._hint)
         if not found:
             answer.miss()
         self.membership.session.declare_token(presence.sender_key(name.robot, sender))
@@ -195,7 +199,7 @@ class Node:
     ) -> Declared[V]:
         """Return a parameter, whose `value` others change while the node spins, within these bounds.
 
-        `changed` hears of another value before it counts, and refuses it by raising a ZteleopError.
+        `changed` hears of another value before it counts, and refuses it by raising a ValueError.
         Raises ConfigError when the name is none or is taken, or the value is out of bounds.
         """
         bounds = Bounds(least, most, choices)

@@ -131,7 +131,10 @@ class Parameters:
             raise ConfigError(f"parameter {name} is declared twice")
         if not name or not all(part.isidentifier() for part in name.split(".")):
             raise ConfigError(f"a parameter is called speed, or limits.speed; found {name!r}")
-        bounds.check(value)
+        try:
+            bounds.check(value)
+        except ConfigError as error:
+            raise ConfigError(f"parameter {name}: {error}") from None
         self._declared[name] = Declared(name, value, description, bounds, changed)
         return self._declared[name]
 
@@ -179,7 +182,7 @@ class Parameters:
         before = declared.value
         try:
             declared.set(_value_of(parameter))
-        except ZteleopError as error:
+        except (ZteleopError, ValueError) as error:  # the latter of whoever declared it
             return SetParametersResult(False, f"{parameter.name}: {error}")
         if declared.value != before:
             self._say(f"{parameter.name} is {declared.value} now, and was {before}")

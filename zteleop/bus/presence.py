@@ -108,11 +108,31 @@ def _told(kind: type[Message]) -> str:
 
 def endpoints(session: Session) -> list[Endpoint]:
     """Return what every robot's nodes publish and hear, as all who are connected tell."""
-    return sorted(_endpoints(session, "pub") + _endpoints(session, "sub"))
+    return everybody(session).endpoints
 
 
 def service_key(name: Name, node: str, ros_type: str) -> str:
     return f"robot/{name.robot}/live/srv/{node}/{process()}/{ros_type.replace('/', '.')}/{name.path}"
+
+
+class Everybody(NamedTuple):
+    """All that tokens stand for."""
+
+    endpoints: list[Endpoint]
+    nodes: list["Member"]
+    services: list[Endpoint]
+    with_parameters: list["Member"]
+
+
+def everybody(session: Session) -> Everybody:
+    """Return all of it, by one question: of several, each would wait for whoever does not answer."""
+    keys = _tokens(session, "robot/*/live/**")
+    return Everybody(
+        sorted(_endpoints_in(keys, "pub") + _endpoints_in(keys, "sub")),
+        _members_in(keys, "node"),
+        sorted(_endpoints_in(keys, "srv")),
+        _members_in(keys, "param"),
+    )
 
 
 def parameters_key(robot: str, node: str) -> str:
@@ -159,20 +179,29 @@ def robots(session: Session) -> list[str]:
 
 
 def _members(session: Session, kind: str) -> list[Member]:
-    parts = (key.split("/") for key in _tokens(session, f"robot/*/live/{kind}/*/*"))
-    return sorted(Member(robot, node, where) for _, robot, _, _, node, where in parts)
+    return _members_in(_tokens(session, f"robot/*/live/{kind}/*/*"), kind)
+
+
+def _members_in(keys: Iterable[str], kind: str) -> list[Member]:
+    parts = (key.split("/") for key in keys)
+    found = (part for part in parts if len(part) == 6 and part[3] == kind)
+    return sorted(Member(robot, node, where) for _, robot, _, _, node, where in found)
 
 
 def _endpoints(session: Session, kind: str) -> list[Endpoint]:
+    return sorted(_endpoints_in(_tokens(session, f"robot/*/live/{kind}/**"), kind))
+
+
+def _endpoints_in(keys: Iterable[str], kind: str) -> list[Endpoint]:
     found = set()
-    for key in _tokens(session, f"robot/*/live/{kind}/**"):
+    for key in keys:
         parts = key.split("/", 7)
-        if len(parts) == 8:
+        if len(parts) == 8 and parts[3] == kind:
             _, robot, _, _, node, where, ros_type, topic = parts
             ros_type, _, digest = ros_type.partition("~")
             ros_type, topic = ros_type.replace(".", "/"), topic.replace("+", "*")
             found.add(Endpoint(robot, kind, node, where, ros_type, topic, digest))
-    return sorted(found)
+    return list(found)
 
 
 def _tokens(session: Session, selector: str) -> set[str]:

@@ -125,9 +125,13 @@ def service_type_of(request: type[Message], response: type[Message]) -> str:
 
 def _who_is_silent(session: Session, name: Name, seconds: float) -> str:
     """Return who did not answer within some seconds, or what may have been meant where nobody serves it."""
-    known = presence.services(session)
+    known, node = presence.services(session), name.path.rpartition("/")[0]
     those = [f"{one.node} on {one.process}" for one in known if (one.robot, one.topic) == name]
+    if node and not those:  # what each node serves below its own name has no token of its own
+        those = [f"{node} on {holder}" for holder in presence.holders(session, name.robot, node)]
     if those:
-        return f"{' and '.join(those)} did not answer /{name} within {seconds:g} s; does it spin?"
+        return (
+            f"{' and '.join(those)} did not answer /{name} within {seconds:g} s: it is busy, or does not spin"
+        )
     there = {f"/{one.robot}/{one.topic}" for one in known}
     return f"nobody serves /{name}" + (f"; {nearest(f'/{name}', there)}" if there else " here")

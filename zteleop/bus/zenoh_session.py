@@ -13,7 +13,7 @@ from zteleop.bus.pump import Pump
 from zteleop.bus.session import Inbox, Question, Reply, Sample
 from zteleop.errors import BusError
 
-_REPLY_WITHIN = 2.0
+_REPLY_WITHIN = 1.5
 """s for everybody to say which tokens there are"""
 _WORDS = "text/plain"
 """the encoding of a refusal"""
@@ -36,6 +36,7 @@ class ZenohSession:
         self._connect = connect
         self._kept: list[Undeclarable] = []
         self._overheard: list[OverheardRing] = []
+        self.unanswered = False
 
     def subscribe(self, key: str, depth: int) -> "ZenohRing":
         return ZenohRing(self.zenoh.declare_subscriber(key, zenoh.handlers.RingChannel(depth)))
@@ -96,6 +97,7 @@ class ZenohSession:
         def take(reply: zenoh.Reply) -> None:
             if reply.ok and len(found) < _MOST:
                 found.add(str(reply.ok.key_expr))
+            self.unanswered |= reply.ok is None
 
         # Not by a channel: zenoh's holds 256, and whoever fills it here is who should empty it.
         replies: Any = zenoh.handlers.Callback(take, told.set, indirect=False)

@@ -138,7 +138,7 @@ def port(patient: Patient) -> Finding:
 
 def multicast(patient: Patient) -> Finding:
     if not patient.settings.bus.multicast:
-        return Finding(None, "switched off: robots are found only where -e says")
+        return Finding(None, "switched off: robots are found only where -e, or connect of config.toml, says")
     try:
         heard, why = trial.hears_itself(), "nothing comes back"
     except OSError as error:
@@ -153,17 +153,21 @@ def robots(patient: Patient) -> Finding:
     try:
         with open_session(settings.bus, settle=True) as session:
             found, there = presence.robots(session), presence.endpoints(session)
+            unreached = session.unreached()
     except (ZteleopError, ImportError) as error:
         return Finding(False, str(error))
     told = (f"{topic}: {words}" for topic, those in by_topic(there).items() for words in disagreements(those))
     if words := next(told, ""):
         return Finding(False, words)
+    here = who_is_here(found, settings.robot or "", unreached)
     if settings.robot and settings.robot not in found:
         return Finding(
-            None, f"{settings.robot} is not heard, {who_is_here(found, settings.robot)}; is its actuator on?"
+            None,
+            f"{settings.robot} is not heard, {here}; is its actuator on?",
         )
     return Finding(
-        True if found else None, who_is_here(found) + ("" if found else "; zteleop demo starts one")
+        True if found else None,
+        here + ("" if found or unreached else "; zteleop demo starts one"),
     )
 
 

@@ -106,7 +106,8 @@ def _values(place: Place, typed: list[str], last: str) -> Iterable[str]:
     if place.dest == "parameter":
         return _parameters(typed)
     if place.dest == "node":
-        return _on_the_bus(typed, lambda graph: [f"/{node.robot}/{node.node}" for node in graph.nodes])
+        form = "/{0.robot}/{0.node}" if last.startswith("/") else "{0.node}"
+        return _on_the_bus(typed, lambda graph: [form.format(node) for node in graph.nodes])
     return _types(place.dest)
 
 

@@ -128,13 +128,10 @@ def graph(arguments: argparse.Namespace) -> Iterator[Graph]:
 
 def look(session: Session, selected: str | None) -> Graph:
     """Return who is there now; of the robots the one selected is meant, or the only one."""
-    robots = presence.robots(session)
+    there = presence.everybody(session)
+    robots = sorted({node.robot for node in there.nodes if node.node == "actuator"})
     robot = selected or (robots[0] if len(robots) == 1 else None)
+    _company.tell_unanswered(session)
     return Graph(
-        presence.endpoints(session),
-        presence.nodes(session),
-        robot,
-        presence.services(session),
-        presence.with_parameters(session),
-        session.unreached(),
+        there.endpoints, there.nodes, robot, there.services, there.with_parameters, session.unreached()
     )

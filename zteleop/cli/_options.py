@@ -1,6 +1,7 @@
 """Options that every verb on the bus shares, and the robot they lead to."""
 
 import argparse
+import re
 import sys
 from pathlib import Path
 
@@ -49,14 +50,28 @@ def add_config(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def load(options: argparse.Namespace) -> Config:
-    """Return the settings of the file meant, with what was typed on top."""
-    return with_typed(options, config.load(options.config))
+def load(options: argparse.Namespace, *, listens: bool = False) -> Config:
+    """Return the settings of the file meant, with what was typed on top.
+
+    `[bus] listen` is the robot's, which says `listens`: whoever else reads that file connects to it there.
+    """
+    settings = config.load(options.config)
+    return with_typed(options, settings if listens else beside_robot(settings))
 
 
 def load_anyhow(options: argparse.Namespace) -> Config:
     """Do the same, and where the file is not right go on with what can be read of it, and say so."""
-    return with_typed(options, salvaged(options))
+    return with_typed(options, beside_robot(salvaged(options)))
+
+
+def beside_robot(settings: Config) -> Config:
+    """Return the settings of a verb that runs on the machine of the robot whose file it reads."""
+    bus = settings.bus
+    if bus.mode == "router" or not bus.listen:
+        return settings
+    own = [re.sub(r"/(\[::\]|0\.0\.0\.0):", "/127.0.0.1:", endpoint) for endpoint in bus.listen]
+    bus = msgspec.structs.replace(bus, listen=[], connect=bus.connect or own)
+    return msgspec.structs.replace(settings, bus=bus)
 
 
 def salvaged(options: argparse.Namespace) -> Config:

@@ -38,7 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Watch over a robot until told to end."""
-    settings = _options.load(arguments)
+    settings = _options.load(arguments, listens=True)
     robot = settings.robot or config.own_name()
     name = arguments.driver or settings.driver
     chip = settings.driver_settings(name, robot)

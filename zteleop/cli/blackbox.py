@@ -11,7 +11,7 @@ import msgspec
 from zteleop import config
 from zteleop.bus.escape import printable
 from zteleop.bus.names import robot_name
-from zteleop.errors import ConfigError
+from zteleop.errors import ConfigError, nearest
 from zteleop.recording import blackbox_file
 from zteleop.recording.amounts import SECOND, span
 from zteleop.recording.blackbox_file import Header, Recorded, Recording
@@ -72,12 +72,19 @@ def _files(robot: str | None) -> list[Path]:
 def _newest(robot: str | None) -> Path:
     found = _files(robot)
     if not found:
+        near = _near(robot)
         raise ConfigError(
             f"{robot or 'no robot of this machine'} has {'no' if robot else 'a'} black box to show yet: "
             "one is written when a robot is stopped, loses its operator or fails; zteleop blackbox FILE "
-            "shows one from elsewhere"
+            f"shows one from elsewhere{near}"
         )
     return found[-1]
+
+
+def _near(robot: str | None) -> str:
+    """Return which robots of this machine have a black box, where the one that is meant has none."""
+    others = {path.parent.parent.name for path in _files(None)}
+    return f"; {nearest(robot, others)}" if robot and others else ""
 
 
 def _listing(robot: str | None) -> Iterator[str]:

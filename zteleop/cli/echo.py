@@ -26,6 +26,8 @@ EXAMPLES = (
     "zteleop echo odom --csv --header --filter 'm.twist.twist.linear.x >= 0' --count 3",
 )
 CLEAR = "\x1b[H\x1b[2J"
+TELL_AGAIN = 10.0
+"""s until it says once more that nothing is what was asked for"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -75,6 +77,8 @@ def run(arguments: argparse.Namespace) -> None:
             if came and not shown:
                 words = f"{came} messages came on {name} so far, and none is what was asked for"
                 print(printable(f"zteleop echo: {words}"), file=sys.stderr, flush=True)
+            if not shown:
+                telling.ring_at(clock.now() + TELL_AGAIN)
 
         silence = ears.loop.alarm(give_up)
 
@@ -95,7 +99,8 @@ def run(arguments: argparse.Namespace) -> None:
         ears.hear(name, show)
         if wait is not None:
             silence.ring_at(clock.now() + wait)
-        ears.loop.alarm(tell).ring_at(clock.now() + TELL_AFTER)
+        telling = ears.loop.alarm(tell)
+        telling.ring_at(clock.now() + TELL_AFTER)
         ears.run()
 
 
@@ -133,7 +138,8 @@ class Wanted:
             text = self.text(sample)
         except MessageError as error:
             words = str(error)
-            self.complaints.tell(words if words.startswith(sample.key) else f"{sample.key}: {words}")
+            about = words if words.startswith(sample.key) else f"{sample.key}: {words}"
+            self.complaints.tell(f"zteleop echo: {about}")
             return False
         if text is None:
             return False

@@ -1,4 +1,5 @@
 import argparse
+from pathlib import Path
 
 from zteleop import config
 from zteleop.bus.names import robot_name
@@ -6,7 +7,7 @@ from zteleop.cli import _options
 from zteleop.config import Config
 from zteleop.control.calibration import Calibration
 from zteleop.drivers import DRIVERS, open_driver
-from zteleop.errors import DeviceError
+from zteleop.errors import DeviceError, nearest
 
 EXAMPLES = (
     "zteleop neutral",
@@ -35,12 +36,22 @@ def bring_to_rest(settings: Config, name: str, robot: str) -> Calibration:
     return calibration
 
 
+def _near(path: str) -> str:
+    """Return whose chips lie beside one that is not there."""
+    there = [file.stem for file in Path(path).parent.glob(f"*{Path(path).suffix}")]
+    return f"; {nearest(Path(path).stem, there)}" if there and Path(path).suffix else ""
+
+
 def run(arguments: argparse.Namespace) -> None:
     """Write neutral first and ask afterwards: it is never wrong."""
     settings = _options.salvaged(arguments)
     robot = robot_name(arguments.robot or settings.robot or config.own_name())
     name = arguments.driver or settings.driver
     chip = settings.driver_settings(name, robot)
+    if name == "simulated" and not Path(chip["path"]).exists():
+        raise DeviceError(
+            f"{robot} has no simulated chip at {chip['path']}: nothing of it moves{_near(chip['path'])}"
+        )
     calibration = bring_to_rest(settings, name, robot)
     try:
         open_driver(name, chip).close()

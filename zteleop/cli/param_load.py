@@ -27,7 +27,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> None:
     text = _read(arguments.file)
     with parameters_of(arguments) as node:
-        wanted = load(text, node.name, wildcards=not arguments.no_use_wildcard)
+        wildcards, leaf = not arguments.no_use_wildcard, node.name.rpartition("/")[2]
+        wanted = load(text, node.name, wildcards=wildcards) or load(text, f"/{leaf}", wildcards=wildcards)
         if not wanted:
             near = nearest(node.name, nodes(text))
             raise ConfigError(f"{arguments.file} has no parameters of {node.name}; {near}")

@@ -11,6 +11,7 @@ from zteleop.bus import clock, presence
 from zteleop.bus.escape import printable
 from zteleop.bus.names import Name, resolve
 from zteleop.bus.node import Node
+from zteleop.bus.presence import Endpoint
 from zteleop.bus.publisher import Publisher
 from zteleop.bus.topics import topic_of
 from zteleop.cli import _company, _options
@@ -19,7 +20,7 @@ from zteleop.cli._outcome import Outcome
 from zteleop.cli._types import find_type
 from zteleop.control.resume import Resume
 from zteleop.control.settings import SOURCES
-from zteleop.errors import BusError, ConfigError, MessageError
+from zteleop.errors import BusError, ConfigError, MessageError, nearest
 from zteleop.messages import DriveStatus, Message
 from zteleop.text.documents import Documents
 
@@ -81,7 +82,10 @@ def run(arguments: argparse.Namespace) -> None:
         publisher = node.publisher(f"/{name}", kind, wait=False)
         command = topic_of(name.path).command
         wanted = arguments.wait_matching_subscriptions
+        _warn_of_other_types(node, name)
         heard = _await_robot(node, publisher) if command else _await_hearer(node, publisher, name, wanted)
+        if command:
+            _check_source(node, name)
         if not heard and times is None:
             print("zteleop pub: waits no longer, and says it all the same", file=sys.stderr)
         if arguments.stdin:
@@ -196,6 +200,30 @@ def _await_robot(node: Node, publisher: Publisher[Message]) -> bool:
             raise BusError(f"robot {node.robot} does not answer; is its actuator on? {here}")
     heard.wait()
     return True
+
+
+def _check_source(node: Node, name: Name) -> None:
+    """Raise BusError for a source that the robot does not know: it hears each of its own by name."""
+    topic, _, source = name.path.partition("/")
+    ends = presence.endpoints(node.membership.session)
+    heard = {one.topic for one in ends if (one.robot, one.kind, one.node) == (name.robot, "sub", "actuator")}
+    known = sorted(path.partition("/")[2] for path in heard if path.startswith(f"{topic}/"))
+    if source and known and source not in known:
+        raise BusError(
+            f"robot {name.robot} has no source {source!r}; {nearest(source, known)}; "
+            f"[drive.sources.{source}] in its config.toml adds one"
+        )
+
+
+def _warn_of_other_types(node: Node, name: Name) -> None:
+    """Say who hears another type there, and drops what is said."""
+    ends = presence.endpoints(node.membership.session)
+    for words in _company.disagreements(_company.members(name, "sub", ends) + _own(name, ends)):
+        print(printable(f"zteleop pub: warning: {words}"), file=sys.stderr)
+
+
+def _own(name: Name, ends: list[Endpoint]) -> list[Endpoint]:
+    return [one for one in _company.members(name, "pub", ends) if one.process == presence.process()]
 
 
 def _await_hearer(node: Node, publisher: Publisher[M], name: Name, wanted: int) -> bool:

@@ -29,7 +29,7 @@ def run(arguments: argparse.Namespace) -> None:
         print(len(services))
     elif services:
         print(printable("\n".join(services), keep="\n"))
-    elif not found.nodes:
+    elif arguments.robot not in {None, *(node.robot for node in found.nodes)} or not found.nodes:
         raise BusError(found.nobody(arguments.robot))
     else:
         raise BusError("nobody here serves anything but parameters: zteleop param list")

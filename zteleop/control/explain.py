@@ -2,6 +2,8 @@
 
 from collections.abc import Iterator
 
+from msgspec.structs import asdict
+
 from zteleop.control import curvature
 from zteleop.control.cap import Bound
 from zteleop.control.evidence import STANDS, Evidence
@@ -115,12 +117,23 @@ def _metres(speed: float) -> str:
 
 def _limiter(seen: Snapshot) -> str:
     if seen.step.claim is None:
-        return "nothing to limit"
+        narrowed = ", ".join(_narrowed(seen))
+        return f"nothing to limit; set narrower: {narrowed}" if narrowed else "nothing to limit"
     asked, applied = wanted(seen), seen.settings.mixer.unmix(seen.step.wheels)
     if _near(asked, applied):
         return "passes it on as asked"
     bounds = "; ".join(_bounds(seen, seen.step.claim, asked, applied)) or "the wheels can do no better"
-    return f"makes it {_twist(applied)}: {bounds}"
+    others = ", ".join(limit for limit in _narrowed(seen) if limit.partition(" ")[0] not in bounds)
+    more = f" (set narrower: {others})" if others else ""
+    return f"makes it {_twist(applied)}: {bounds}{more}"
+
+
+def _narrowed(seen: Snapshot) -> Iterator[str]:
+    """Yield the limits that somebody has set narrower than the settings say, and to what."""
+    widest = asdict(seen.settings.limits.in_numbers(seen.settings.mixer))
+    for name, value in asdict(seen.limits).items():
+        if value is not None and value != widest[name]:
+            yield f"limits.{name} {value:g}"
 
 
 def _bounds(seen: Snapshot, claim: Claim, asked: Twist, applied: Twist) -> Iterator[str]:

@@ -11,6 +11,9 @@ from zteleop.control.proof import NEVER, Proof
 SENDERS = 64
 """How many senders are remembered; whoever is forgotten must let go once more. Never who drives."""
 
+ANEW = "let go first, pause for 2 s, or start it anew"
+"""what whoever moved before something ended does to begin once more"""
+
 
 class Refusal(StrEnum):
     """Why a command does not count."""
@@ -20,12 +23,10 @@ class Refusal(StrEnum):
     REPLAYED = "it repeats an older command"
     STALE = "it is too old, or its sender no longer hears the robot"
     OPERATOR_IDLE = "its operator has not acted for too long"
-    NOT_FROM_NEUTRAL = (
-        "it was moving before the robot started or the link came back; let go first, or pause for 2 s"
-    )
-    BEFORE_RELEASE = "it was moving before the stop was released; let go first, or pause for 2 s"
-    BEFORE_REPAIR = "it was moving before the chip's fault was over; let go first, or pause for 2 s"
-    INTERRUPTED = "it was said before the robot went on; act once more"
+    NOT_FROM_NEUTRAL = f"it was moving before the robot started or the link came back; {ANEW}"
+    BEFORE_RELEASE = f"it was moving before the stop was released; {ANEW}"
+    BEFORE_REPAIR = f"it was moving before the chip's fault was over; {ANEW}"
+    INTERRUPTED = "it was said before an interruption ended; act once more"
     HELD = "another sender drives this source, or did when this one began; let go, and begin anew after it"
     AT_REST = "the robot is kept at rest; let go, and begin anew when it is free"
     NO_SUCH_CHANNEL = "this vehicle has no steering and throttle; send a twist"

@@ -30,12 +30,15 @@ class Buttons:
         self._down = (False, False)
         self._heard = float("-inf")
         self._armed = False
+        self._lost = False
 
     @property
     def about(self) -> Sequence[str]:
         """What is so of the buttons now, in words."""
         if self._heard == float("-inf"):
             return ["no button is heard yet"]
+        if self._lost:
+            return ["the buttons are no longer heard"]
         if not self._armed and any(self._down):
             return ["let go of the buttons first"]
         return [WORDS[self._down]]
@@ -47,6 +50,7 @@ class Buttons:
         self._armed |= not any(down)
         self._down = down
         self._heard = now
+        self._lost = False
 
     def fileno(self) -> None:
         """Return None: what is done comes by the bus."""
@@ -59,6 +63,7 @@ class Buttons:
         if now - self._heard > LOST_AFTER:
             self._down = (False, False)
             self._armed = False
+            self._lost = True
         return self._armed and any(self._down)
 
     def stick(self, now: float) -> Stick:

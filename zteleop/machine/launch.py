@@ -149,9 +149,8 @@ class Running:
             self.done = True
             self._tell(self.name, "is done")
         elif code == USAGE:
-            self._fail(
-                code, f"ended with {USAGE}, as what is called wrongly does, and is not started again", now
-            )
+            how = f"ended with exit code {USAGE}: it was called wrongly, or is not there"
+            self._fail(code, f"{how}; it is not started again", now)
         else:
             pause = self._back_off.pause(now - self._started)
             self._due = now + pause

@@ -7,6 +7,7 @@ from zteleop.bus.topics import TOPICS
 from zteleop.control.command import to_command
 from zteleop.control.deadlines import STEP_EVERY, WATCHDOG_SILENCE
 from zteleop.control.drive import Drive, Step
+from zteleop.control.gate import Refusal
 from zteleop.control.proof import called
 from zteleop.control.settings import DriveSettings
 from zteleop.control.standing import NOBODY, Standing, go_on, stand
@@ -28,6 +29,8 @@ AT_MOST_EVERY = 0.005
 IN_A_ROW = 4
 CHECK_EVERY = 0.2
 KEEP_EVERY = 1.0
+AS_IT_IDLES = 0.5
+"""s after an operator's deadline in which it is no news that what comes is refused"""
 DEAF = "deaf"
 UNHEARD = "the watchdog does not hear this robot on the bus"
 TAKEN_OVER = "its actuator came late, and was started again"
@@ -143,6 +146,11 @@ class Actuator:
         if proof:
             self._state.note(proof.sender, source, refusal, now)
         self._journal.command(source, sender, command, acted, refusal, now)
+        if (
+            refusal is Refusal.OPERATOR_IDLE
+            and now - acted < self._drive.admission.operator_silence + AS_IT_IDLES
+        ):
+            return  # its sender goes neutral at the same moment
         if refusal:
             who = called(source, f"{proof.sender:x}") if proof else received.key
             self._node.log.warn(f"{who} is refused: {refusal}", f"{source} {refusal}")

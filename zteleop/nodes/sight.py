@@ -57,14 +57,16 @@ class Sight:
         """
         self.news = self._statuses.newest()
         if self.news:
-            if self.news.state == "driving" and self.status and self.status.state != "driving":
-                self._log = ("", now)  # whatever was in the way is so no more
+            if self.status and self.news.state != self.status.state and self._is_over(self.news):
+                self._log = ("", now)
             self.status, self._status_at = self.news, now
             self.unmanned = None
         elif now - self._status_at > LINK_LOSS:
             self.status = None
         if dog := self._watchdogs.newest():
             self.unmanned = _unmanned(dog, self._robot)
+            if self.unmanned and " is refused: " in self._log[0]:
+                self._log = ("", now)
         beat = self._heard.beat
         gone = beat is None or now - self._heard.at > LINK_LOSS
         if beat and self._epoch not in (None, beat.epoch):
@@ -73,6 +75,10 @@ class Sight:
         self._epoch = None if beat is None or gone else beat.epoch
         self._at_rest = self.status is not None and self.status.state in HOLDS
         return before != (self._epoch, self._at_rest)
+
+    def _is_over(self, status: DriveStatus) -> bool:
+        """Say whether what the log told last is so no more: whatever was in the way, or a refusal."""
+        return status.state == "driving" or " is refused: " in self._log[0]
 
     @property
     def vehicle(self) -> Vehicle | None:

@@ -44,7 +44,7 @@ class Stopping:
         """When the robot first said that it has heard the stop asked for."""
         self._shown = False
         """A status has shown it."""
-        self._is_over = False
+        self.is_over = False
         """The stop asked for was acknowledged, and is no longer in force."""
         self.state: Literal["", "pending", "done", "failed"] = ""
         self.words = ""
@@ -67,7 +67,7 @@ class Stopping:
 
     def repeats(self, now: float) -> bool:
         """Say whether a stop is still being said, whatever the answer was."""
-        return self._engages and not self._is_over and now - self._since < REPEAT
+        return self._engages and not self.is_over and now - self._since < REPEAT
 
     def engage(self, now: float, why: str = "") -> None:
         """Begin to ask for a stop, under an id of its own."""
@@ -98,7 +98,7 @@ class Stopping:
         if status and self._before is None:  # where none was seen at the press, the first may be older
             self._before = _ids(status.stops)
         if status and self._engages and self._shown:
-            self._is_over |= not self._shows(status)
+            self.is_over |= not self._shows(status)
         if self.state == "pending":
             self._go_on(status, now)
         elif self.unanswered and status and self._shows(status):
@@ -143,7 +143,7 @@ class Stopping:
         self._since_then = None
         self._heard = NEVER
         self._shown = False
-        self._is_over = False
+        self.is_over = False
         self.state = "pending"
         self._ways.say(self.robot, said, now)
 

@@ -184,4 +184,5 @@ class Teleop:
         """Return what the robot answers to a stop or a release, for a while; else the latest of the log."""
         log, asking = self._sight.log(now), self._stopping
         pending = asking.state == "pending" or asking.unanswered
-        return asking.words if pending or now - asking.ended < NEWS else log
+        is_news = now - asking.ended < NEWS and not asking.is_over
+        return asking.words if pending or is_news else log

@@ -159,11 +159,11 @@ def test_in_a_long_handler_nobody_is_missed_and_a_refusal_is_heard(sender: Sende
     ]
 
 
-def test_a_robot_that_is_gone_refuses_nothing(sender: Sender) -> None:
+def test_a_robot_that_is_gone_is_not_heard_and_refuses_nothing(sender: Sender) -> None:
     sender.refuse()
     sender.say()
     sender.say(UNHEARD + 0.2, beats=False)
-    assert sender.answer.refused == ""
+    assert sender.answer.refused == "robot archangel is not heard"
     sender.refuse()
     sender.say()
     assert sum("is refused" in line for line in sender.news) == 2

@@ -92,3 +92,23 @@ def test_holders_are_the_processes_of_one_node_of_one_robot() -> None:
 def test_a_stranger_is_no_holder_of_every_robots_nodes(name: str) -> None:
     keys = [f"robot/abe/live/node/actuator/{name}", "robot/*/live/node/actuator/pi-7"]
     assert presence.holders(Session(keys), "abe", "actuator") == []
+
+
+def test_everybody_is_found_by_one_question() -> None:
+    name = Name("abe", "lights")
+    tokens = [
+        presence.node_key("abe", "nose"),
+        presence.parameters_key("abe", "nose"),
+        presence.service_key(name, "nose", "std_srvs/srv/SetBool"),
+        presence.endpoint_key(Name("abe", "odom"), "pub", "nose", []),
+        presence.endpoint_key(Name("abe", "odom"), "sub", "nose", []),
+        presence.sender_key("abe", 7),
+        "robot/abe/live/node/too/many/parts",
+    ]
+    session = Session(tokens)
+    found = presence.everybody(session)  # type: ignore[arg-type]
+    assert [(one.kind, one.topic) for one in found.endpoints] == [("pub", "odom"), ("sub", "odom")]
+    assert found.nodes == found.with_parameters == [("abe", "nose", presence.process())]
+    assert [(one.topic, one.type) for one in found.services] == [("lights", "std_srvs/srv/SetBool")]
+    assert found.nodes == presence.nodes(session)  # type: ignore[arg-type]
+    assert found.services == presence.services(session)  # type: ignore[arg-type]

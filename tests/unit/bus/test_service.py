@@ -187,7 +187,10 @@ def test_whoever_asks_with_another_type_is_told_before_anybody_is_asked() -> Non
 @pytest.mark.parametrize(
     ("serves", "words"),
     [
-        ("lights", r"nose on [\w-]+ did not answer /archangel/lights within 0.5 s; does it spin\?$"),
+        (
+            "lights",
+            r"nose on [\w-]+ did not answer /archangel/lights within 0.5 s: it is busy, or does not spin$",
+        ),
         ("light", r"nobody serves /archangel/lights; did you mean /archangel/light\?$"),
         ("", "nobody serves /archangel/lights here$"),
     ],

@@ -7,6 +7,7 @@ from importlib import metadata
 from pathlib import Path
 
 import pytest
+from unit.bus.fakes import Session
 
 from zteleop.bus.lane import trial
 from zteleop.bus.presence import Endpoint
@@ -25,7 +26,7 @@ REAL = Patient(parse(b"driver = 'pca9685'\n[drivers.pca9685]\nbus = 7\n"), "", T
 def heard(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """Return the robots that are on the bus."""
     found: list[str] = []
-    monkeypatch.setattr(_checkup, "open_session", lambda bus, settle: nullcontext())
+    monkeypatch.setattr(_checkup, "open_session", lambda bus, settle: nullcontext(Session()))
     monkeypatch.setattr(_checkup.presence, "robots", lambda session: found)
     monkeypatch.setattr(_checkup.presence, "endpoints", lambda session: [])
     return found

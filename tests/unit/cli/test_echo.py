@@ -127,7 +127,7 @@ def test_what_cannot_be_read_is_said_on_stderr_escaped(capsys: Capsys) -> None:
     assert not echo.Wanted(parsed()).show(bad)
     out, err = capsys.readouterr()
     assert out == ""
-    assert err.startswith("robot/abe/\\u001b[2J: 2 bytes of 'zenoh/bytes', not JSON")
+    assert err.startswith("zteleop echo: robot/abe/\\u001b[2J: 2 bytes of 'zenoh/bytes', not JSON")
 
 
 def test_what_is_nested_too_deeply_for_yaml_is_said_and_no_end(capsys: Capsys) -> None:

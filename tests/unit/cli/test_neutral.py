@@ -97,3 +97,15 @@ def test_its_calibration_is_the_files(chip: str, tmp_path: Path, capsys: Capture
     with open_registers(chip) as registers:
         assert read_duty_ticks(registers.snapshot(), 3) == 368
     assert "throttle 1500 us = 368 ticks" in capsys.readouterr().out
+
+
+def test_a_robot_that_has_no_chip_moves_nothing_and_is_perhaps_another(
+    chip: str, capsys: Capture, tmp_path: Path
+) -> None:
+    (tmp_path / "config.toml").unlink()
+    drive(str(tmp_path / "zteleop" / "archangel.pca9685"))
+    assert neutral("--robot", "archangle") == 1
+    words = capsys.readouterr().err
+    assert "archangle has no simulated chip at " in words
+    assert words.endswith("archangle.pca9685: nothing of it moves; did you mean archangel?\n")
+    assert not (tmp_path / "zteleop" / "archangle.pca9685").exists()

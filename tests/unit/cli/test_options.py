@@ -130,3 +130,27 @@ def test_a_child_ends_when_its_parent_does(typed: bool, monkeypatch: pytest.Monk
     monkeypatch.setattr(_options.sys, "stdin", SimpleNamespace(fileno=lambda: 5))
     _options.end_with_parent(argparse.Namespace(with_parent=typed), node)
     assert watched == ({5: "stop"} if typed else {})
+
+
+@pytest.mark.parametrize(
+    ("text", "robots", "others"),
+    [
+        ('listen = ["tcp/[::]:7447"]', (["tcp/[::]:7447"], []), ([], ["tcp/127.0.0.1:7447"])),
+        (
+            'listen = ["tcp/0.0.0.0:1", "tcp/pi:2"]',
+            (["tcp/0.0.0.0:1", "tcp/pi:2"], []),
+            ([], ["tcp/127.0.0.1:1", "tcp/pi:2"]),
+        ),
+        ('listen = ["tcp/[::]:1"]\nconnect = ["tcp/a:2"]', (["tcp/[::]:1"], ["tcp/a:2"]), ([], ["tcp/a:2"])),
+        ('mode = "router"\nlisten = ["tcp/[::]:1"]', (["tcp/[::]:1"], []), (["tcp/[::]:1"], [])),
+    ],
+)
+def test_where_a_file_lets_its_robot_listen_everybody_else_connects(
+    home: Path, text: str, robots: tuple[list[str], list[str]], others: tuple[list[str], list[str]]
+) -> None:
+    (home / "config.toml").write_text(f"[bus]\n{text}\n")
+    robot, other = _options.load(parse(), listens=True).bus, _options.load(parse()).bus
+    assert (robot.listen, robot.connect) == robots
+    assert (other.listen, other.connect) == others
+    typed = _options.load(parse("-l", "tcp/[::]:9", "-e", "tcp/b:3")).bus
+    assert (typed.listen, typed.connect) == (["tcp/[::]:9"], ["tcp/b:3"])

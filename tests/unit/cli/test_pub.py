@@ -4,6 +4,8 @@ from typing import Any
 
 import pytest
 
+from zteleop.bus.names import Name
+from zteleop.bus.presence import Endpoint
 from zteleop.cli import _options, pub
 from zteleop.control.gate import Refusal
 from zteleop.control.resume import Resume
@@ -171,3 +173,49 @@ def test_whoever_says_no_command_is_obeyed_by_nobody(capsys: pytest.CaptureFixtu
     node = FakeNode()
     pub._say(node, Said("chatter"), lambda: FORWARD, 10.0, 1, None, 0.0)  # type: ignore[arg-type]
     assert "drive_status" not in node.inboxes
+
+
+def ends(*told: tuple[str, str, str, str]) -> list[Endpoint]:
+    return [Endpoint("abe", kind, node, "pi-7", kind_, topic) for kind, node, topic, kind_ in told]
+
+
+@pytest.mark.parametrize(
+    ("path", "words"),
+    [
+        ("cmd_vel/program", ""),
+        ("cmd_vel", ""),
+        ("pwm/nav", ""),
+        ("cmd_vel/keybord", "robot abe has no source 'keybord'; did you mean keyboard"),
+        (
+            "cmd_vel/nav",
+            r"no source 'nav'; known: keyboard, program; \[drive.sources.nav\] in its config.toml adds",
+        ),
+    ],
+)
+def test_a_source_that_the_robot_does_not_hear_is_an_error(
+    monkeypatch: pytest.MonkeyPatch, path: str, words: str
+) -> None:
+    there = ends(
+        ("sub", "actuator", "cmd_vel/keyboard", "any"),
+        ("sub", "actuator", "cmd_vel/program", "any"),
+        ("sub", "echo", "cmd_vel/**", "any"),
+        ("pub", "nose", "cmd_vel/nav", "any"),
+    )
+    monkeypatch.setattr(pub.presence, "endpoints", lambda session: there)
+    if words:
+        with pytest.raises(BusError, match=words):
+            pub._check_source(FakeNode(), Name("abe", path))  # type: ignore[arg-type]
+    else:
+        pub._check_source(FakeNode(), Name("abe", path))  # type: ignore[arg-type]
+
+
+def test_who_hears_another_type_is_named_before_anything_is_said(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    own = Endpoint("abe", "pub", "pub", pub.presence.process(), "a/msg/Soil", "soil", "11")
+    there = [own, *ends(("sub", "ear", "soil", "a/msg/Rain"), ("pub", "other", "soil", "a/msg/Snow"))]
+    monkeypatch.setattr(pub.presence, "endpoints", lambda session: there)
+    pub._warn_of_other_types(FakeNode(), Name("abe", "soil"))  # type: ignore[arg-type]
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("zteleop pub: warning: pub on ")
+    assert line.endswith(" says a/msg/Soil; ear on pi-7 hears a/msg/Rain alone, and drops it")

@@ -56,7 +56,7 @@ def test_a_line_for_the_robot_and_one_for_each_layer(monkeypatch: pytest.MonkeyP
         "  operator  keyboard 00ff operates",
         "  limiter   passes it on as asked",
         "  watchdog  watching: the actuator steps, last 12 ms ago; sees pulses of rest, "
-        "and has heard no command that allows motion",
+        "and hears no command that allows motion now",
         "  at        2026-11-28 21:40:05 UTC",
     ]
 
@@ -86,10 +86,10 @@ def test_nobody_there_is_an_error_in_words_that_names_who_is_and_is_told_sooner(
 @pytest.mark.parametrize(
     ("status", "words"),
     [
-        (dog(moving=True, allowed=True), "sees pulses that move, and has heard commands that allow motion"),
-        (dog(moving=True), "sees pulses that move, and has heard no command that allows motion"),
-        (dog(restarts=3), "no command that allows motion; 3 restarts"),
-        (dog(restarts=1), "no command that allows motion; 1 restart"),
+        (dog(moving=True, allowed=True), "sees pulses that move, and hears commands that allow motion"),
+        (dog(moving=True), "sees pulses that move, and hears no command that allows motion now"),
+        (dog(restarts=3), "no command that allows motion now; 3 restarts"),
+        (dog(restarts=1), "no command that allows motion now; 1 restart"),
         (dog(state="starting", why="the actuator starts"), "starting: the actuator starts; sees"),
     ],
 )

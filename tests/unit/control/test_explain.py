@@ -250,3 +250,11 @@ def test_a_speed_that_somebody_set_is_told_also_at_rest_and_what_it_makes_of_a_w
     assert says(robot)["cap"] == "0.3 of 3 m/s: limits.speed is set to 0.3 m/s"
     robot.hold(FORWARD, 2.0)
     assert says(robot)["limiter"].endswith(": limits.speed is set to 0.3 m/s")
+
+
+def test_limits_that_somebody_has_narrowed_are_named_at_rest_and_where_they_bind() -> None:
+    robot = Robot()
+    robot.drive.limits = Limits(speed=3.0, turn=0.1, pulse_duty=0.5)
+    assert says(robot)["limiter"] == "nothing to limit; set narrower: limits.turn 0.1, limits.pulse_duty 0.5"
+    robot.hold(Twist.planar(0.5, 1.0), 2.0)
+    assert says(robot)["limiter"].endswith("(set narrower: limits.turn 0.1, limits.pulse_duty 0.5)")

@@ -54,6 +54,7 @@ def test_buttons_that_nobody_tells_of_any_more_are_up_and_must_be_let_go(buttons
     assert buttons.read(1.0 + LOST_AFTER)
     assert not buttons.read(1.01 + LOST_AFTER)
     assert buttons.stick(3.0) == Stick()
+    assert buttons.about == ["the buttons are no longer heard"]
     buttons.hear(said(*LEFT), 4.0)
     assert not buttons.read(4.0)
     assert buttons.about == ["let go of the buttons first"]

@@ -76,7 +76,7 @@ def test_what_fails_is_started_again_and_later_each_time() -> None:
         (
             python("raise SystemExit(2)"),
             2,
-            "ended with 2, as what is called wrongly does, and is not started again",
+            "ended with exit code 2: it was called wrongly, or is not there; it is not started again",
         ),
         (Program(["/no/such/program"]), 127, "cannot be started: No such file or directory"),
     ],

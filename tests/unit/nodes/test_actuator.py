@@ -694,6 +694,23 @@ def drive(robot: Robot, prover: Prover, source: str) -> None:
         drive_once(robot, prover, source)
 
 
+def test_whoever_idles_as_the_robot_does_is_no_news(robot: Robot) -> None:
+    robot.say(PUSH)
+    acted = robot.beat
+    for tenths in range(60):
+        robot.tick(5)
+        proof = robot.prover.prove(robot.beat, True, robot.clock.time)
+        if tenths in (52, 58):  # a tenth of a second, and more than half a second, after the deadline
+            robot.node.warnings.clear()
+        robot.node.inboxes["cmd_vel/keyboard"].handler(
+            Received(PUSH, "robot/archangel/cmd_vel/keyboard", proof, robot.clock.time)
+        )
+        if tenths == 52:
+            assert robot.node.warnings == []
+    assert acted
+    assert "its operator has not acted for too long" in robot.node.warnings[0]
+
+
 def test_whoever_waits_for_another_source_is_told_and_when_it_is_obeyed_again(robot: Robot) -> None:
     told = robot.node.said["refusals"]
     program, keyboard = Prover(0xFF), Prover(0xAA)

@@ -379,6 +379,29 @@ def test_the_answer_to_a_stop_is_the_note_for_a_while(desk: Desk) -> None:
     assert not any(view.alarm for view in desk.views)
 
 
+def test_an_answer_to_a_stop_that_somebody_has_released_is_no_news(desk: Desk) -> None:
+    desk.device.wish = Wish.STOP
+    desk.tick()
+    desk.hear_state("stopped", desk.stops.messages[0].id)
+    desk.tick()
+    assert desk.views[-1].note.startswith("archangel is stopped")
+    desk.hear_state("idle")
+    desk.tick()
+    assert desk.views[-1].note == ""
+
+
+@pytest.mark.parametrize("words", ["keyboard 18d4 is refused: it is too old", "the chip was silent"])
+def test_a_refusal_is_no_news_once_the_robot_does_something_else(desk: Desk, words: str) -> None:
+    desk.hear_state("stopped", 7)
+    desk.tick()
+    desk.hear_log(words)
+    desk.tick()
+    assert desk.views[-1].note == f"actuator: {words}"
+    desk.hear_state("idle")
+    desk.tick()
+    assert desk.views[-1].note == ("" if "refused" in words else f"actuator: {words}")
+
+
 def test_a_stop_that_nobody_acknowledges_stays_an_alarm_until_somebody_does(desk: Desk) -> None:
     desk.device.wish = Wish.STOP
     desk.tick(round((ACKNOWLEDGED_WITHIN + NEWS + 1) / PERIOD), beats=False)
