@@ -111,7 +111,7 @@ def test_a_service_is_asked_from_a_shell_in_the_words_of_ros(rig: Rig, lights: P
 )
 def test_what_cannot_be_is_one_sentence(rig: Rig, lights: Process, words: tuple[str, ...], told: str) -> None:
     code, _, error = asks(rig, *words)
-    assert (code, error.count("\n")) == (1, 1 + error.count("waits; ")), error
+    assert (code, error.count("\n")) == (1, 1 + error.count("waits for ")), error
     assert told in error
 
 

@@ -1,9 +1,12 @@
 """What a node says in words, on the bus and to one listener here.
 
-Each subject once a second; warnings, which others cause, ten a second in all.
+Each subject once a second, and ever more seldom while it goes on; warnings, which others cause, ten a second
+in all.
 """
 
 from collections.abc import Callable
+
+from msgspec import Struct
 
 from zteleop.bus import clock
 from zteleop.bus.escape import printable
@@ -12,6 +15,18 @@ from zteleop.messages import Log
 LEVELS = {"debug": Log.DEBUG, "info": Log.INFO, "warn": Log.WARN, "error": Log.ERROR}
 _WORDS = {Log.DEBUG: "debug", Log.INFO: "info", Log.WARN: "warning", Log.ERROR: "error"}
 _A_SECOND = 10
+FORGOTTEN_AFTER, LONGEST_PAUSE = 1.0, 30.0
+"""s without reason to speak of a subject, after which it is new; and s between two sentences at the most"""
+
+
+class Said(Struct):
+    """A subject that was spoken of."""
+
+    told: float
+    last: float
+    """when there was reason to, last"""
+    pause: float
+    """s from one sentence to the next"""
 
 
 class NodeLog:
@@ -21,7 +36,7 @@ class NodeLog:
         self._name = name
         self._publish = publish
         self.show = show
-        self._said: dict[str, float] = {}
+        self._said: dict[str, Said] = {}
         self._held_back = 0
         self._least = Log.INFO
 
@@ -42,15 +57,24 @@ class NodeLog:
         self.tell(Log.ERROR, text, subject or text)
 
     def tell(self, level: int, text: str, subject: str) -> None:
-        """Tell a sentence, unless its subject, or too much else, was spoken of within the last second."""
+        """Tell a sentence, unless its subject, or too much else, was spoken of just now.
+
+        What goes on and on is told ever more seldom, and what was quiet for a second is news again.
+        """
         if level < self._least:
             return
         now = clock.now()
-        self._said = {said: at for said, at in self._said.items() if now - at < 1.0}
-        if subject in self._said or (level == Log.WARN and len(self._said) >= _A_SECOND):
+        self._said = {name: one for name, one in self._said.items() if now - one.last < FORGOTTEN_AFTER}
+        said = self._said.get(subject)
+        lately = sum(now - one.told < FORGOTTEN_AFTER for one in self._said.values())
+        if said:
+            said.last = now
+        if (said and now - said.told < said.pause) or (
+            not said and level == Log.WARN and lately >= _A_SECOND
+        ):
             self._held_back += 1
             return
-        self._said[subject] = now
+        self._said[subject] = Said(now, now, min(2 * said.pause, LONGEST_PAUSE) if said else FORGOTTEN_AFTER)
         text = printable(text[:500]) + (f" ({self._held_back} more left out)" if self._held_back else "")
         self._held_back = 0
         self._publish(Log(clock.stamp(), level, self._name, text, "", "", 0))

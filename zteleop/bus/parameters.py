@@ -67,7 +67,7 @@ ANY = Bounds()
 
 
 class Declared(Generic[V]):
-    """One parameter; `value` is what it is now."""
+    """One parameter."""
 
     def __init__(
         self,
@@ -78,11 +78,21 @@ class Declared(Generic[V]):
         changed: Callable[[V], object] | None,
     ) -> None:
         self.name = name
-        self.value = value
+        self._value = value
         self.description = description
         self.bounds = bounds
         self._kind = kind_of(value)
         self._changed = changed
+
+    @property
+    def value(self) -> V:
+        """What it is now; raises ConfigError when a program makes it what it may not be."""
+        return self._value
+
+    @value.setter
+    def value(self, value: V) -> None:
+        self.bounds.check(value)
+        self._value = value
 
     def set(self, value: Any) -> None:
         """Take another value.

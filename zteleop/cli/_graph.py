@@ -48,14 +48,16 @@ class Graph(NamedTuple):
                 f"several serve '{text}': {', '.join(f'/{name}' for name in sorted(own))}; say which"
             )
         if not own:
-            near = (
-                nearest(f"/{wanted}", (f"/{name}" for name in known))
-                if known
-                else "nobody serves anything here"
-            )
+            shown = {name for name in known if name.path.rpartition("/")[2] in wanted} | self._named
+            near = nearest(f"/{wanted}", (f"/{name}" for name in shown)) if shown else "there is none here"
             raise BusError(f"Unknown service '{text}'; {near}")
         (name,) = own
         return name, [one for one in self.all_services if (one.robot, one.topic) == name]
+
+    @property
+    def _named(self) -> set[Name]:
+        """The services that are more than every node's own."""
+        return {Name(one.robot, one.topic) for one in self.services}
 
     @property
     def all_services(self) -> list[Endpoint]:

@@ -1,14 +1,20 @@
 import argparse
+import sys
 from collections.abc import Callable
 
+from zteleop.bus import clock, presence
 from zteleop.bus.escape import printable
-from zteleop.cli import _options
+from zteleop.bus.names import resolve
+from zteleop.bus.node import Node
+from zteleop.cli import _company, _options
 from zteleop.cli._driving import find_vehicle
 from zteleop.inputs.buttons import Buttons
 from zteleop.messages import InterfaceButtons
 from zteleop.nodes.teleop import Teleop
 from zteleop.screen.view import View
 
+TELL_AFTER = 1.0
+"""s until it says who tells of no button"""
 EXAMPLES = (
     "zteleop buttons",
     "zteleop buttons archangel",
@@ -28,7 +34,16 @@ def run(arguments: argparse.Namespace) -> None:
         node.subscription(
             "interface_buttons", InterfaceButtons, lambda heard: buttons.hear(heard.message, heard.at)
         )
+        node.membership.loop.alarm(lambda: _miss(node, buttons)).ring_at(clock.now() + TELL_AFTER)
         Teleop(node, buttons, "buttons", find_vehicle(node, settings), teller(buttons)).run()
+
+
+def _miss(node: Node, buttons: Buttons) -> None:
+    """Say who tells of no button, or that nobody does."""
+    if not buttons.heard:
+        name, session = resolve("interface_buttons", node.robot), node.membership.session
+        words = _company.why_silent(name, presence.endpoints(session), session.unreached())
+        print(printable(f"zteleop buttons: waits for {name}: {words}"), file=sys.stderr, flush=True)
 
 
 def teller(buttons: Buttons) -> Callable[[View], None]:

@@ -62,6 +62,7 @@ def _await_server(session: Session, text: str, robot: str | None) -> Name:
             if waited > THERE_WITHIN:
                 raise
             if waited > TELL_AFTER and not told:
-                print(f"zteleop service call: waits; {printable(str(error))}", file=sys.stderr, flush=True)
+                words = f"waits for somebody who serves {text}: {error}"
+                print(printable(f"zteleop service call: {words}"), file=sys.stderr, flush=True)
                 told = True
             time.sleep(GLANCE)

@@ -35,13 +35,18 @@ class Buttons:
     @property
     def about(self) -> Sequence[str]:
         """What is so of the buttons now, in words."""
-        if self._heard == float("-inf"):
+        if not self.heard:
             return ["no button is heard yet"]
         if self._lost:
             return ["the buttons are no longer heard"]
         if not self._armed and any(self._down):
             return ["let go of the buttons first"]
         return [WORDS[self._down]]
+
+    @property
+    def heard(self) -> bool:
+        """Somebody has told of them."""
+        return self._heard > float("-inf")
 
     def hear(self, said: InterfaceButtons, now: float) -> None:
         """Take in what the robot says of its buttons."""

@@ -36,17 +36,38 @@ def test_a_sentence_is_said_on_the_bus_and_shown_here(ears: Ears) -> None:
     assert ears.said[0].stamp.sec > 0
 
 
-def test_a_subject_is_spoken_of_once_a_second_and_what_was_held_back_is_counted(
+def test_what_goes_on_is_spoken_of_ever_more_seldom_and_what_was_held_back_is_counted(
     ears: Ears, clock: Clock
 ) -> None:
-    for number in range(25):
+    for number in range(80):
         ears.log.warn(f"smells odd {number}", "smell")
         clock.pass_by(0.1)
     assert ears.texts == [
         "smells odd 0",
         "smells odd 10 (9 more left out)",
-        "smells odd 20 (9 more left out)",
+        "smells odd 30 (19 more left out)",
+        "smells odd 70 (39 more left out)",
     ]
+    clock.pass_by(1.0)
+    ears.log.warn("smells again", "smell")
+    ears.log.warn("smells again", "smell")
+    assert ears.texts[4:] == ["smells again (9 more left out)"]
+
+
+def test_however_long_it_goes_on_it_is_told_twice_a_minute(ears: Ears, clock: Clock) -> None:
+    for _ in range(6000):
+        ears.log.warn("smells odd")
+        clock.pass_by(0.1)
+    assert len(ears.said) == 24
+
+
+def test_what_goes_on_takes_no_others_place(ears: Ears, clock: Clock) -> None:
+    for _ in range(50):
+        for number in range(10):
+            ears.log.warn("smells odd", f"subject {number}")
+        clock.pass_by(0.1)
+    ears.log.warn("something else")
+    assert ears.texts[-1].startswith("something else")
 
 
 def test_without_a_subject_a_sentence_is_its_own(ears: Ears) -> None:

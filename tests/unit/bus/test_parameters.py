@@ -180,3 +180,11 @@ def test_they_are_asked_for_by_the_services_that_ros_has(parameters: Parameters)
     parameters.serve(lambda name, request, response, handler: served.update({name: request.ros_type}))
     assert served == {name: f"{ros_type}_Request" for name, ros_type in SERVICES.items()}
     assert served["set_parameters"] == "rcl_interfaces/srv/SetParameters_Request"
+
+
+def test_a_program_makes_its_own_no_other_than_what_others_may(parameters: Parameters) -> None:
+    speed = parameters.declare("speed", 1.0, "", Bounds(0.0, 2.0))
+    speed.value = 1.5
+    with pytest.raises(ConfigError, match=r"expected 0 to 2, found 7"):
+        speed.value = 7.0
+    assert speed.value == 1.5
