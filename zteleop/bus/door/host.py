@@ -4,7 +4,6 @@ What arrives comes in a thread of zenoh's and is passed on there and then: one h
 for what these processes ask. It never waits for them either.
 """
 
-import secrets
 import socket
 import threading
 from collections import deque
@@ -35,6 +34,7 @@ from zteleop.bus.session import Outlet, Question, Sample
 from zteleop.bus.zenoh_session import Undeclarable, ZenohSession
 from zteleop.control.allowance import Allowance
 from zteleop.errors import BusError
+from zteleop.machine.ids import new_id
 
 AT_ONCE, EVERY, EVERY_PROVEN = 500, 0.001, 0.0002
 """samples of one key, and s until there may be one more: a flood costs the robot this much and no more. What
@@ -101,7 +101,7 @@ class Guest:
         self._passing = threading.Lock()
         self._questions: dict[int, tuple[float, Question]] = {}
         """which wait for an answer, and since when"""
-        self._numbers = count(secrets.randbits(32))  # an answer to another door's question is none here
+        self._numbers = count(new_id())  # an answer to another door's question is none here
 
     def fileno(self) -> int:
         return self._wire.fileno()
