@@ -133,7 +133,7 @@ def test_parameters_are_shown_changed_kept_and_set_again(rig: Rig, lights: Proce
     assert asks(rig, "param", "get", "/bench/lights", "brightness")[1] == "Double value is: 0.25\n"
     _, dumped, _ = asks(rig, "param", "dump", "lights")
     assert dumped == "/bench/lights:\n  ros__parameters:\n    brightness: 0.25\n    log_level: info\n"
-    (rig.folder / "lights.yaml").write_text(dumped.replace("0.25", "0.75"))
+    (rig.folder / "lights.yaml").write_text(dumped.replace("0.25", "0.75").replace("/bench/", "/"))
     assert "Set parameter brightness successful\n" in asks(rig, "param", "load", "lights", "lights.yaml")[1]
     assert asks(rig, "param", "get", "lights", "brightness", "--hide-type")[1] == "0.75\n"
     assert "    Max value: 1.0\n" in asks(rig, "param", "describe", "lights", "brightness")[1]

@@ -103,10 +103,6 @@ class Session(Protocol):
     def declare_token(self, key: str) -> None:
         """Stand for something until this session ends."""
 
-    @property
-    def unanswered(self) -> bool:
-        """Somebody did not say in time which tokens he has: they are missing from what was found."""
-
     def tokens(self, selector: str) -> set[str]:
         """Return the tokens there are."""
 

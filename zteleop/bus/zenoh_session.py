@@ -36,7 +36,6 @@ class ZenohSession:
         self._connect = connect
         self._kept: list[Undeclarable] = []
         self._overheard: list[OverheardRing] = []
-        self.unanswered = False
 
     def subscribe(self, key: str, depth: int) -> "ZenohRing":
         return ZenohRing(self.zenoh.declare_subscriber(key, zenoh.handlers.RingChannel(depth)))
@@ -101,7 +100,7 @@ class ZenohSession:
         # Not by a channel: zenoh's holds 256, and whoever fills it here is who should empty it.
         replies: Any = zenoh.handlers.Callback(take, told.set, indirect=False)
         self.zenoh.liveliness().get(selector, replies, timeout=_REPLY_WITHIN)
-        self.unanswered |= not told.wait(_REPLY_WITHIN)  # zenoh's own patience with who is frozen is longer
+        told.wait(_REPLY_WITHIN)  # zenoh's own patience with who is frozen is longer
         return set(found)
 
     def watch_tokens(self, selector: str, depth: int, history: bool = False) -> "ZenohRing":

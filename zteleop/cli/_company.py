@@ -1,6 +1,5 @@
 """Who speaks and who hears on the bus, in words for whoever waits for them."""
 
-import sys
 from collections.abc import Iterable, Iterator, Sequence
 
 from zteleop.bus import presence
@@ -68,13 +67,6 @@ def who_hears(name: Name, endpoints: Iterable[Endpoint], unreached: Sequence[str
 def here(session: Session, wanted: str | None) -> str:
     """Return which robots have an actuator that is heard, where the one that is wanted has none."""
     return who_is_here(presence.robots(session), wanted or "", session.unreached())
-
-
-def tell_unanswered(session: Session) -> None:
-    """Say that somebody did not answer: what he has is missing from whatever is told next."""
-    if session.unanswered:
-        words = "somebody on the bus does not answer, and is missing here: is a program suspended? (fg)"
-        print(f"zteleop: {words}", file=sys.stderr, flush=True)
 
 
 def who_is_here(robots: Iterable[str], wanted: str = "", unreached: Sequence[str] = ()) -> str:

@@ -133,7 +133,6 @@ def look(session: Session, selected: str | None) -> Graph:
     there = presence.everybody(session)
     robots = sorted({node.robot for node in there.nodes if node.node == "actuator"})
     robot = selected or (robots[0] if len(robots) == 1 else None)
-    _company.tell_unanswered(session)
     return Graph(
         there.endpoints, there.nodes, robot, there.services, there.with_parameters, session.unreached()
     )

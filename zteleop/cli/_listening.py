@@ -6,13 +6,16 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from typing import NamedTuple
 
+from msgspec import Struct
+
 from zteleop.bus import clock, presence
 from zteleop.bus.escape import printable
-from zteleop.bus.loop import Loop
+from zteleop.bus.loop import FAR, Loop
 from zteleop.bus.names import Name, resolve
 from zteleop.bus.session import Delivery, Overheard, Ring, Sample, Session, open_session
 from zteleop.bus.topics import topic_of
 from zteleop.cli import _company, _options
+from zteleop.control.proof import NEVER
 
 DEPTH = 1000
 """messages that wait for whoever looks at them; of a flood the oldest are lost"""
@@ -33,6 +36,18 @@ class Arrival(NamedTuple):
 
     at: float
     sample: Sample
+
+
+class Topic(Struct):
+    """One that is heard."""
+
+    name: Name
+    ring: Overheard
+    heard: float = NEVER
+    look_at: float = FAR
+    """when to look whether anybody says it still"""
+    skipped: int = 0
+    """how much was told to be skipped"""
 
 
 class Complaints:
@@ -58,31 +73,21 @@ class Listening:
         self._verb = verb
         self._session = session
         self._deliveries: list[Delivery] = []
-        self._rings: dict[str, Overheard] = {}
-        self._skipped: dict[str, int] = {}
-        """of each topic, how much was told to be skipped"""
-        self._silent: dict[str, Name] = {}
-        """the topics that have said nothing yet, by their names"""
-        self._heard: dict[str, tuple[Name, float]] = {}
-        """those that have, and when"""
-        self._look_at: dict[str, float] = {}
-        """when to look whether anybody says them still"""
+        self._topics: list[Topic] = []
 
     def hear(self, name: Name, handler: Callable[[Arrival], object]) -> None:
         """Hand over whatever is said on a topic; of a command topic, by every source."""
         about = topic_of(name.path)
         key = f"{name.key}/**" if about.command and "/" not in name.path else name.key
-        self._silent[str(name)] = name
+        topic = Topic(name, self._session.overhear(key, DEPTH))
+        self._topics.append(topic)
 
         def take(arrival: Arrival) -> None:
-            self._silent.pop(str(name), None)
-            self._heard[str(name)] = name, arrival.at
-            self._look_at[str(name)] = arrival.at + GONE_AFTER
+            topic.heard = arrival.at
+            topic.look_at = arrival.at + GONE_AFTER
             handler(arrival)
 
-        ring = self._rings[str(name)] = self._session.overhear(key, DEPTH)
-        inbox = _Inbox(ring)
-        self._deliveries.append(self._session.deliver(inbox, take, self.loop))
+        self._deliveries.append(self._session.deliver(_Inbox(topic.ring), take, self.loop))
         self._session.declare_token(presence.endpoint_key(name, "sub", self._verb, about.types))
 
     def run(self) -> None:
@@ -114,29 +119,32 @@ class Listening:
 
     def _tell_skipped(self) -> None:
         """Tell what came faster than it could be taken in."""
-        for name, ring in self._rings.items():
-            more = ring.skipped - self._skipped.get(name, 0)
-            if more:
-                self._skipped[name] = ring.skipped
-                words = f"skipped {more} messages on {name}, which came faster than they were taken in"
-                print(printable(f"zteleop {self._verb}: {words}"), file=sys.stderr, flush=True)
+        for topic in self._topics:
+            if more := topic.ring.skipped - topic.skipped:
+                topic.skipped = topic.ring.skipped
+                self._say(
+                    f"skipped {more} messages on {topic.name}, which came faster than they were taken in"
+                )
 
     def _notice_end(self) -> None:
         """Tell, once, of a topic that nobody says any more: what it said last is no longer so."""
         now = clock.now()
-        silent = [(name, at) for key, (name, at) in self._heard.items() if now > self._look_at[key]]
+        silent = [topic for topic in self._topics if now > topic.look_at]
         endpoints = self.endpoints() if silent else []
-        for name, at in silent:
-            self._look_at[str(name)] = now + LOOK_AGAIN
-            if not _company.members(name, "pub", endpoints):
-                words = f"{name} has been silent for {now - at:.0f} s, and nobody publishes it any more"
-                print(printable(f"zteleop {self._verb}: {words}"), file=sys.stderr, flush=True)
-                del self._heard[str(name)]
+        for topic in silent:
+            ended = not _company.members(topic.name, "pub", endpoints)
+            topic.look_at = FAR if ended else now + LOOK_AGAIN
+            if ended:
+                gone = f"has been silent for {now - topic.heard:.0f} s, and nobody publishes it any more"
+                self._say(f"{topic.name} {gone}")
 
     def _tell(self) -> None:
-        for name in list(self._silent.values()):
-            words = f"zteleop {self._verb}: waits for {self.why_silent(name)}"
-            print(words, file=sys.stderr, flush=True)
+        for topic in self._topics:
+            if topic.heard == NEVER:
+                self._say(f"waits for {self.why_silent(topic.name)}")
+
+    def _say(self, words: str) -> None:
+        print(printable(f"zteleop {self._verb}: {words}"), file=sys.stderr, flush=True)
 
 
 class _Inbox:

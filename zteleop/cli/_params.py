@@ -11,7 +11,7 @@ from zteleop.bus.escape import printable
 from zteleop.bus.names import Name
 from zteleop.bus.service import ANSWERED_WITHIN, call
 from zteleop.bus.session import Session, open_session
-from zteleop.cli import _company, _options
+from zteleop.cli import _options
 from zteleop.cli._graph import find_node
 from zteleop.errors import BusError, nearest
 from zteleop.messages import (
@@ -83,7 +83,6 @@ def parameters_of(arguments: argparse.Namespace) -> Iterator[NodeParameters]:
     settings = _options.load(arguments)
     with open_session(settings.bus, settle=True) as session:
         known = presence.with_parameters(session)
-        _company.tell_unanswered(session)
         robot, node = find_node(arguments.node, known, settings.robot)
         several = [one for one in known if (one.robot, one.node) == (robot, node)]
         if len(several) > 1:

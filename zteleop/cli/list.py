@@ -24,7 +24,6 @@ def run(arguments: argparse.Namespace) -> None:
     settings = _options.load(arguments)
     with open_session(settings.bus, settle=True) as session:
         everybody, unreached = presence.endpoints(session), session.unreached()
-        _company.tell_unanswered(session)
     endpoints = [one for one in everybody if settings.robot in (None, one.robot)]
     if not endpoints:
         where = settings.robot or "a robot"

@@ -24,7 +24,6 @@ def run(arguments: argparse.Namespace) -> None:
     settings = _options.load(arguments)
     with open_session(settings.bus, settle=True) as session:
         known = presence.with_parameters(session)
-        _company.tell_unanswered(session)
         if arguments.node:
             nodes = [find_node(arguments.node, known, settings.robot)]
         else:

@@ -70,7 +70,6 @@ class Session:
         self.served: dict[str, Callable[[Question], object]] = {}
         self.asked: list[tuple[str, bytes, str, float]] = []
         self.reply: Reply | None = None
-        self.unanswered = False
         self.closed = False
 
     def serve(self, key: str, take: Callable[[Question], object]) -> None:

@@ -11,6 +11,7 @@ from zteleop.bus import codec, presence
 from zteleop.bus.heard import Heard
 from zteleop.bus.names import known_as
 from zteleop.bus.node import Node
+from zteleop.bus.settings import BusSettings
 from zteleop.errors import ConfigError
 from zteleop.machine import stderr
 from zteleop.messages import Beat, Int16MultiArray, Log, Odometry, Pwm, String, Twist, TwistStamped
@@ -283,3 +284,15 @@ def test_whoever_listens_to_a_misspelt_topic_is_told(node: Node) -> None:
     node.subscription("chatter", String)
     (line,) = lines
     assert line.endswith("hears odmo, which no robot says; did you mean odom?")
+
+
+def test_a_program_whose_robot_is_not_heard_learns_that_it_reads_no_settings(
+    session: Session, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("zteleop.bus.node.open_session", lambda bus: session)
+    told: list[str] = []
+    for bus in (None, BusSettings(connect=["tcp/pi:7447"])):
+        with Node("nose", "archangel", bus) as node:
+            node.log.show = told.append
+            node.publisher("cmd_vel", Twist)
+    assert ["it reads no config.toml" in words for words in told] == [True, False]

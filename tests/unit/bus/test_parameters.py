@@ -188,3 +188,11 @@ def test_a_program_makes_its_own_no_other_than_what_others_may(parameters: Param
     with pytest.raises(ConfigError, match=r"expected 0 to 2, found 7"):
         speed.value = 7.0
     assert speed.value == 1.5
+
+
+def test_whoever_declared_it_may_refuse_with_a_plain_error(parameters: Parameters) -> None:
+    def changed(value: float) -> None:
+        raise ValueError("not on tuesdays")
+
+    parameters.declare("heat", 1.0, changed=changed)
+    assert set_to(parameters, "heat", 2.0) == "heat: not on tuesdays"

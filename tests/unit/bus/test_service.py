@@ -202,5 +202,11 @@ def test_silence_is_told_with_who_should_have_answered(serves: str, words: str) 
         ask(session)
 
 
+def test_a_node_that_is_busy_is_not_said_to_serve_nothing() -> None:
+    session = Session([presence.node_key("archangel", "nose")])
+    with pytest.raises(BusError, match=r"^nose on [\w-]+ did not answer /archangel/nose/lights within"):
+        call(session, Name("archangel", "nose/lights"), SetBoolRequest(True), SetBoolResponse, 0.5)  # type: ignore[arg-type]
+
+
 def test_the_type_of_a_service_is_what_its_halves_share() -> None:
     assert service.service_type_of(TriggerRequest, TriggerResponse) == "std_srvs/srv/Trigger"

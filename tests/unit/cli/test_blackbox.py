@@ -159,3 +159,10 @@ def test_of_a_torn_file_the_rest_is_shown_and_said(home: Path, capsys: pytest.Ca
     told = capsys.readouterr()
     assert [json.loads(line) for line in told.out.splitlines()]
     assert told.err == "not all of this file can be shown: its end is missing\n"
+
+
+def test_a_robot_whose_name_was_mistyped_is_asked_about(
+    home: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    keep(home, "anna")
+    assert fails(capsys, "ana").endswith("; did you mean anna?")

@@ -9,7 +9,6 @@ from zteleop.cli._company import (
     here,
     meets,
     members,
-    tell_unanswered,
     who_hears,
     who_is_here,
     why_silent,
@@ -145,15 +144,6 @@ def test_the_name_of_one_source_means_that_one_and_the_plain_name_all(path: str,
         typed("pub", "sim", "any", topic="odom"),
     ]
     assert [one.node for one in everybody if meets(Name("abe", path), one)] == found
-
-
-def test_whoever_does_not_answer_is_said_to_be_missing(capsys: pytest.CaptureFixture[str]) -> None:
-    session = Session()
-    tell_unanswered(session)  # type: ignore[arg-type]
-    assert capsys.readouterr().err == ""
-    session.unanswered = True
-    tell_unanswered(session)  # type: ignore[arg-type]
-    assert "does not answer, and is missing here" in capsys.readouterr().err
 
 
 def test_an_endpoint_at_which_nobody_answers_is_named(monkeypatch: pytest.MonkeyPatch) -> None:

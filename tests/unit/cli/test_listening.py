@@ -7,7 +7,7 @@ from unit.bus.fakes import Session, put
 
 from zteleop.bus import presence
 from zteleop.bus.names import Name
-from zteleop.cli._listening import GONE_AFTER, MOST_COMPLAINTS, Complaints, Listening
+from zteleop.cli._listening import GONE_AFTER, LOOK_AGAIN, MOST_COMPLAINTS, Complaints, Listening
 from zteleop.messages import Odometry
 from zteleop.testing import Clock
 
@@ -44,6 +44,9 @@ def test_what_nobody_says_any_more_is_told_once_and_a_pause_is_not(
         else ("zteleop echo: abe/odom has been silent for 2 s, and nobody publishes it any more\n")
     )
     assert capsys.readouterr().err == told
+    clock.pass_by(LOOK_AGAIN + 1)
+    ears._notice_end()
+    assert capsys.readouterr().err == ""
     ears.close()
 
 
@@ -54,10 +57,10 @@ def test_where_somebody_only_pauses_it_does_not_ask_everybody_again_and_again(cl
     ears.hear(ODOM, lambda arrival: ears.loop.stop())
     ears.loop.run()
     looks: list[float] = []
-    ears.endpoints = lambda: looks.append(clock.time) or []  # type: ignore[func-returns-value,method-assign]
+    there = presence.endpoints(session)  # type: ignore[arg-type]
+    ears.endpoints = lambda: looks.append(clock.time) or there  # type: ignore[func-returns-value,method-assign]
     for _ in range(20):
         clock.pass_by(1.0)
-        ears._heard[str(ODOM)] = ODOM, 0.0  # as where somebody publishes it still
         ears._notice_end()
     assert [round(later - sooner) for sooner, later in pairwise(looks)] == [11]
     ears.close()

@@ -765,3 +765,10 @@ def test_who_is_refused_hears_what_keeps_the_robot_at_rest_and_which_stop_was_th
         Received(Stop(engaged=False, id=KEPT.id, by="ann", why=""), "stop", None, clock.time)
     )
     assert robot.status.released == KEPT.id
+
+
+def test_whoever_drives_is_told_how_often_to_act_as_it_is_now(robot: Robot) -> None:
+    assert robot.node.said["vehicle"].messages[-1].operator_silence == 5.0
+    robot.node.parameters["deadlines.operator"].set(2.0)
+    robot.node.loop.run(TOPICS["why"].every)
+    assert robot.node.said["vehicle"].messages[-1].operator_silence == 2.0

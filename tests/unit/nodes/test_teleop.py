@@ -561,9 +561,13 @@ def test_a_robot_without_an_actuator_is_told_by_its_watchdog_until_there_is_one(
     desk.tick()
     dog = WatchdogStatus.zero()
     dog.state, dog.why = state, "it is at rest"  # type: ignore[assignment]
+    desk.hear_log("keyboard 18d4 is refused: it is too old")
+    desk.tick()
+    assert "refused" in desk.views[-1].note
     desk.node.inboxes["watchdog"].waiting.append(dog)
     desk.tick()
     assert (desk.views[-1].unmanned, desk.views[-1].status) == ((word, words), None)
+    assert desk.views[-1].note == ""
     desk.hear_state("idle")
     desk.tick()
     assert desk.views[-1].unmanned is None

@@ -62,7 +62,6 @@ class Remote:
         self._looked = float("-inf")
         self.is_open = False
         self.closed = False
-        self.unanswered = False
         self._join()
 
     def subscribe(self, key: str, depth: int) -> RemoteRing:
