@@ -81,6 +81,8 @@ def run(arguments: argparse.Namespace) -> None:
         name = resolve(arguments.topic, node.robot)
         publisher = node.publisher(f"/{name}", kind, wait=False)
         command = topic_of(name.path).command
+        # Before anything is said: what reads a type for the first time may swallow a Ctrl-C that comes then.
+        outcome = Outcome(node, publisher) if command else None
         wanted = arguments.wait_matching_subscriptions
         _warn_of_other_types(node, name)
         heard = _await_robot(node, publisher) if command else _await_hearer(node, publisher, name, wanted)
@@ -96,7 +98,7 @@ def run(arguments: argparse.Namespace) -> None:
             print(f"zteleop pub: {words}", file=sys.stderr)
         resume = Resume(publisher.sender) if arguments.resume and publisher.sender else None
         stay = OBEYED_FOR if command else 0.0
-        _say(node, publisher, draft.make, arguments.rate, times, resume, stay, arguments.lasts)
+        _say(node, publisher, draft.make, arguments.rate, times, resume, stay, outcome, arguments.lasts)
         if times is not None and wanted > 0 and not (heard or _hears(node, publisher, name)):
             raise BusError(f"said to nobody: {_who_hears(node, name)}")
 
@@ -109,6 +111,7 @@ def _say(
     times: int | None,
     resume: Resume | None,
     stay: float,
+    outcome: Outcome | None,
     lasts: float | None = None,
 ) -> None:
     """Say a message again and again, for `lasts` s or for ever.
@@ -116,7 +119,6 @@ def _say(
     A repeated motion ends with a neutral, a counted one after `stay` s.
     """
     said = 0
-    outcome = Outcome(node, publisher) if publisher.sender else None
     if resume:
         node.subscription("drive_status", DriveStatus, lambda received: resume.heed(received.message))
 

