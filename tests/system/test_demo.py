@@ -1,7 +1,9 @@
 """`zteleop demo`: everything in one, and nothing of it left behind."""
 
+import os
 import re
 import signal
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
@@ -105,8 +107,11 @@ def after_the_screen(demo: Terminal) -> str:
 
 
 def test_the_first_press_moves_the_car_and_the_end_says_what_was_driven_and_what_comes_next(
-    rig: Rig, screen: Terminal
+    rig: Rig,
 ) -> None:
+    found = f"{Path(sys.executable).parent}:{os.environ['PATH']}"
+    screen = rig.terminal("demo", environment={"PATH": found})
+    screen.shows("step drive", "idle, nobody operates", "place")
     screen.type(UP)
     screen.shows("[375, 374]", "place     x 0.1")
     screen.type("q")
@@ -115,7 +120,7 @@ def test_the_first_press_moves_the_car_and_the_end_says_what_was_driven_and_what
     assert re.match(r"drove 0\.\d m, 0\.\d\d m/s at most\ntry next:\n", last)
     told = re.findall(r"^  (zteleop [-\w ]+?)  +\w", last, re.MULTILINE)
     assert told == ["zteleop demo --drive hold", "zteleop keyboard --help", "zteleop doctor"]
-    again = rig.terminal(*told[0].split()[1:])
+    again = rig.terminal(*told[0].split()[1:], environment={"PATH": found})
     again.shows("hold drive", "idle, nobody operates")
     again.type("w")
     again.shows("moving    +0.")

@@ -79,7 +79,7 @@ def drive_figure(node: Node) -> int:
 def farewell(trip: "Trip", drive: Drive) -> str:
     """Return what was driven, and three commands that show something new."""
     other, how = OTHER[drive]
-    program = "zteleop" if shutil.which("zteleop") else sys.argv[0]  # as it was typed
+    program = as_typed()
     steps = [
         (f"{program} demo --drive {other}", how),
         (f"{program} keyboard --help", "every key"),
@@ -90,6 +90,13 @@ def farewell(trip: "Trip", drive: Drive) -> str:
     return "\n".join(
         [f"drove {drove}", "try next:", *(f"  {command:{width}}{does}" for command, does in steps)]
     )
+
+
+def as_typed() -> str:
+    """Return what the program was called in the shell: also without an activated environment."""
+    if shutil.which("zteleop"):
+        return "zteleop"
+    return f"{sys.orig_argv[0]} -m zteleop" if sys.argv[0].endswith("__main__.py") else sys.argv[0]
 
 
 class Trip:

@@ -32,9 +32,6 @@ def test_the_end_offers_the_other_drive(
     assert f"  zteleop demo --drive {other} " in farewell(trip, drive)
     for x in (0.0, 2.0):
         trip(view(clock, x, speed=0.25))
-    monkeypatch.setattr("shutil.which", lambda name: None)
-    monkeypatch.setattr("sys.argv", [".venv/bin/zteleop"])
-    assert f"  .venv/bin/zteleop demo --drive {other} " in farewell(trip, drive)
     assert farewell(trip, drive).startswith("drove 2.0 m, 0.25 m/s at most\n")
 
 
@@ -51,3 +48,21 @@ def test_it_prints_a_line_a_second(clock: Clock, capsys: pytest.CaptureFixture[s
 def test_before_the_robot_is_heard_it_says_nothing(clock: Clock, capsys: pytest.CaptureFixture[str]) -> None:
     Teller()(view(clock, heard=False))
     assert capsys.readouterr().out == ""
+
+
+@pytest.mark.parametrize(
+    ("found", "typed", "words"),
+    [
+        (True, ["/here/bin/python", "/here/bin/zteleop"], "zteleop"),
+        (False, ["/here/bin/python", ".venv/bin/zteleop"], ".venv/bin/zteleop"),
+        (False, ["python3", "-m", "zteleop"], "python3 -m zteleop"),
+    ],
+)
+def test_the_next_step_is_written_as_this_one_was_typed(
+    monkeypatch: pytest.MonkeyPatch, found: bool, typed: list[str], words: str
+) -> None:
+    monkeypatch.setattr("shutil.which", lambda name: f"/here/bin/{name}" if found else None)
+    monkeypatch.setattr("sys.orig_argv", [*typed, "demo"])
+    first = "/here/zteleop/__main__.py" if "-m" in typed else typed[1]
+    monkeypatch.setattr("sys.argv", [first, "demo"])
+    assert f"\n  {words} demo --drive hold " in farewell(Trip(), "step")
