@@ -55,7 +55,10 @@ class Desk:
         self.kitty = subprocess.Popen(
             ["kitty", *PLAIN, "--class", "desk", *command], env=self._environment, cwd=rig.folder, **QUIET
         )
-        self._do("search", "--sync", "--class", "desk", "windowfocus", "--sync")
+
+    def focus(self) -> None:
+        """Wait for the window; one that is not on the screen yet cannot have the focus."""
+        self._do("search", "--sync", "--onlyvisible", "--class", "desk", "windowfocus", "--sync")
 
     def _do(self, *words: str) -> None:
         subprocess.run(["xdotool", *words], env=self._environment, check=True, timeout=60, **QUIET)
@@ -80,9 +83,6 @@ class Desk:
         """Take the focus away from the window, as another one does."""
         self._do("search", "--maxdepth", "0", ".*", "windowfocus")
 
-    def look_back(self) -> None:
-        self._do("search", "--class", "desk", "windowfocus", "--sync")
-
     def close(self) -> None:
         left = descendants(self.kitty.pid)
         self.kitty.terminate()
@@ -97,6 +97,7 @@ class Desk:
 def desk(rig: Rig, display: str, command: list[str]) -> Iterator[Desk]:
     desk = Desk(rig, display, command)
     try:
+        desk.focus()
         yield desk
     finally:
         for key in ("Up", "Left", "Right"):
@@ -137,7 +138,7 @@ def test_with_the_focus_everything_is_let_go(rig: Rig, display: str) -> None:
         here.drives_at_last("Up")
         here.look_elsewhere()
         until(lambda: rig.ticks == NEUTRAL, "rest")
-        here.look_back()
+        here.focus()
         for _ in every(0.1, 10):
             assert rig.ticks == NEUTRAL, "the key is still down, and arms nothing"
         here.let_go("Up")
