@@ -106,8 +106,7 @@ def _values(place: Place, typed: list[str], last: str) -> Iterable[str]:
     if place.dest == "parameter":
         return _parameters(typed)
     if place.dest == "node":
-        form = "/{0.robot}/{0.node}" if last.startswith("/") else "{0.node}"
-        return _on_the_bus(typed, lambda graph: [form.format(node) for node in graph.nodes])
+        return _on_the_bus(typed, lambda graph: _nodes(graph, last))
     return _types(place.dest)
 
 
@@ -120,6 +119,13 @@ def _topics(graph: Any, last: str) -> Iterable[str]:
     own = f"{graph.robot}/"
     plain = [name.removeprefix(own) for name in with_robot if name.startswith(own)]
     return with_robot if not last or any(name.startswith(last) for name in with_robot) else plain
+
+
+def _nodes(graph: Any, last: str) -> Iterable[str]:
+    """Return nodes in the form that was begun: with a slash, with a robot, or by their own names."""
+    forms = ("/{0.robot}/{0.node}",) if last.startswith("/") else ("{0.node}", "{0.robot}/{0.node}")
+    found = [[form.format(node) for node in graph.nodes] for form in forms]
+    return next((names for names in found if any(name.startswith(last) for name in names)), ())
 
 
 def _types(dest: str) -> Iterable[str]:

@@ -17,6 +17,7 @@ from zteleop.bus.topics import topic_of
 from zteleop.cli import _company, _options
 from zteleop.cli._draft import Draft
 from zteleop.cli._outcome import Outcome
+from zteleop.cli._pace import Pace
 from zteleop.cli._types import find_type
 from zteleop.control.resume import Resume
 from zteleop.control.settings import SOURCES
@@ -118,7 +119,7 @@ def _say(
 
     A repeated motion ends with a neutral, a counted one after `stay` s.
     """
-    said = 0
+    said, pace = 0, Pace(rate)
     if resume:
         node.subscription("drive_status", DriveStatus, lambda received: resume.heed(received.message))
 
@@ -134,6 +135,8 @@ def _say(
             publisher.let_go()
         publisher.publish(message)
         print(f"publishing #{said}: {message}\n", flush=True)
+        if words := pace.count(clock.now()):
+            print(f"zteleop pub: {words}", file=sys.stderr)
         if outcome:
             outcome.note(message)
         if said == times:

@@ -12,7 +12,7 @@ NEWS = 10.0
 """s that a line of the log is shown; what it says may be over by then"""
 SILENT = 0.4
 """s without a word, of twenty a second, after which what was said last may not be so any more"""
-ODOM_LASTS = 1.0
+ODOM_LASTS = 0.5
 """s after which nobody knows where it is"""
 ANEW = "the robot was started anew; whoever drove must begin anew as well"
 

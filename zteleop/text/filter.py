@@ -25,6 +25,7 @@ _SIGNS: dict[type[ast.AST], str] = {
     ast.BitXor: "^",
     ast.MatMult: "@",
 }
+_KINDS: dict[type, str] = {str: "text", bytes: "bytes", list: "a list", dict: "made of fields"}
 _WORDS = {"true": "True", "false": "False", "null": "None"}
 
 
@@ -49,8 +50,24 @@ class Filter:
         """Say whether a message is wanted; raises MessageError when that cannot be worked out of it."""
         try:
             return bool(value(self._tree, values))
-        except (TypeError, ValueError, ArithmeticError, RecursionError) as error:
+        except TypeError as error:
+            reason = f"it compares, or calculates with, what does not go together: {self._kinds(values)}"
+            raise MessageError(
+                f"the filter does not suit a message: {reason if self.fields else error}"
+            ) from None
+        except (ValueError, ArithmeticError, RecursionError) as error:
             raise MessageError(f"the filter does not suit a message: {error}") from None
+
+    def _kinds(self, values: Any) -> str:
+        """Return what each field that it names is, in this message."""
+        found = ((path, paths.value_at(values, path)) for path in self.fields)
+        return ", ".join(f"m.{paths.named(path)} is {_kind(value)}" for path, value in found)
+
+
+def _kind(value: Any) -> str:
+    if isinstance(value, bool) or value is None:
+        return str(value)
+    return _KINDS.get(type(value), "a number")
 
 
 def _parse(text: str) -> ast.expr:

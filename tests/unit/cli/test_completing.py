@@ -56,6 +56,8 @@ def bus(monkeypatch: pytest.MonkeyPatch) -> list[object]:
         (["echo", "--robot", ""], ["abe", "bob"]),
         (["stop", "b"], ["bob"]),
         (["node", "info", "/b"], ["/bob/watchdog"]),
+        (["node", "info", "w"], ["watchdog"]),
+        (["node", "info", "bob/"], ["bob/watchdog"]),
         (["echo", "odom", "nav_msgs/msg/O"], ["nav_msgs/msg/Odometry"]),
         (["pub", "odom", "nav_msgs/msg/O"], ["nav_msgs/msg/Odometry"]),
         (["keyboard", "--drive", ""], ["hold", "step"]),

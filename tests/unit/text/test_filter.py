@@ -103,6 +103,21 @@ def test_what_cannot_be_worked_out_of_a_message_is_an_error(text: str) -> None:
         Filter(text).wants(STAMPED)
 
 
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("m.twist > 3", "m.twist is made of fields"),
+        ("m.header.frame_id < m.twist.linear.x", "m.header.frame_id is text, m.twist.linear.x is a number"),
+        ("len(m.header.stamp.sec)", "m.header.stamp.sec is a number"),
+        ("'a' < 1", "'<' not supported"),
+    ],
+)
+def test_what_does_not_go_together_is_named(text: str, words: str) -> None:
+    with pytest.raises(MessageError) as refusal:
+        Filter(text).wants(STAMPED)
+    assert words in str(refusal.value)
+
+
 @given(st.lists(WORDS, max_size=25).map(" ".join) | st.lists(WORDS, max_size=25).map("".join) | st.text())
 @example("m.twist.linear.x" + " * m.twist.linear.x" * 50)
 @example("[" * 60 + "]" * 60)
