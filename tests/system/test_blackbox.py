@@ -239,3 +239,18 @@ def test_whatever_is_said_it_is_told_and_nobody_dies(bench: Accident) -> None:
     everything = bench.told("--all")
     assert "robot/bench/odd " in everything
     assert "\x1b" not in told + everything
+
+
+def test_echo_begins_with_what_was_said_before(bench: Accident) -> None:
+    """And goes on with what is said since, each once."""
+    said = [Pwm(375, 370 + number) for number in range(4)]
+    for message in said[:2]:
+        bench.pwm.publish(message)
+    options = ("--since", "30s", "--json", "--filter", "m.steering_ticks == 375", *bench.rig.bus_options())
+    echo = bench.rig.run("echo", "pwm", *options)
+    echo.says('"throttle_ticks":371')
+    for message in said[2:]:
+        bench.pwm.publish(message)
+    echo.says('"throttle_ticks":373')
+    shown = [json.loads(line)["throttle_ticks"] for line in echo.text.splitlines() if line.startswith("{")]
+    assert shown == [370, 371, 372, 373]

@@ -67,7 +67,7 @@ def asks(rig: Rig, *words: str) -> tuple[int, str, str]:
 def test_whoever_asks_is_answered_and_a_handler_that_raises_ends_nothing(
     rig: Rig, lights: Process, node: Node
 ) -> None:
-    until(lambda: asks(rig, "service", "list")[1] == "/bench/lights\n", "the service")
+    until(lambda: "/bench/lights\n" in asks(rig, "service", "list")[1], "the service")
     assert node.call("lights", SetBoolRequest(True), SetBoolResponse) == SetBoolResponse(True, "on, at 50%")
     assert asks(rig, "param", "set", "lights", "brightness", "0.0")[0] == 0
     with pytest.raises(BusError, match=r"^/bench/lights refuses: its handler failed: RuntimeError: the lamp"):
@@ -85,7 +85,7 @@ def test_a_service_is_asked_from_a_shell_in_the_words_of_ros(rig: Rig, lights: P
     )
     assert asks(rig, "service", "type", "lights") == (0, "std_srvs/srv/SetBool\n", "")
     assert asks(rig, "service", "find", "SetBool") == (0, "/bench/lights\n", "")
-    assert asks(rig, "service", "list", "-t")[1] == "/bench/lights [std_srvs/srv/SetBool]\n"
+    assert "/bench/lights [std_srvs/srv/SetBool]\n" in asks(rig, "service", "list", "-t")[1]
     assert "/bench/actuator/set_parameters\n" in asks(rig, "service", "list", "-a")[1]
 
 

@@ -125,6 +125,13 @@ def test_echo_prints_a_message_and_ends(rig: Rig) -> None:
     assert result.stdout.count("---") == 1
 
 
+def test_echo_says_where_there_is_no_history_and_goes_on(rig: Rig) -> None:
+    for since, words in (("30s", "nobody serves /bench/blackbox/history"), ("90s", "a black box keeps 60 s")):
+        result = ask(rig, "echo", "drive_status", "--since", since, "--once")
+        assert result.stderr.startswith(f"zteleop echo: no history: {words}")
+        assert result.stdout.startswith("state: idle")
+
+
 def test_echo_prints_json_a_line(rig: Rig) -> None:
     (line,) = ask(rig, "echo", "drive_status", "--once", "--json").stdout.splitlines()
     status = json.loads(line)

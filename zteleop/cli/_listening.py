@@ -4,7 +4,8 @@ import argparse
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
-from typing import NamedTuple
+from functools import partial
+from typing import TYPE_CHECKING, NamedTuple
 
 from msgspec import Struct
 
@@ -16,6 +17,10 @@ from zteleop.bus.session import Delivery, Overheard, Ring, Sample, Session, open
 from zteleop.bus.topics import topic_of
 from zteleop.cli import _company, _options
 from zteleop.control.proof import NEVER
+from zteleop.errors import BusError
+
+if TYPE_CHECKING:
+    from zteleop.cli._history import History
 
 DEPTH = 1000
 """messages that wait for whoever looks at them; of a flood the oldest are lost"""
@@ -75,17 +80,22 @@ class Listening:
         self._deliveries: list[Delivery] = []
         self._topics: list[Topic] = []
 
-    def hear(self, name: Name, handler: Callable[[Arrival], object]) -> None:
-        """Hand over whatever is said on a topic; of a command topic, by every source."""
+    def hear(self, name: Name, handler: Callable[[Arrival], object], since: float | None = None) -> None:
+        """Hand over whatever is said on a topic, and was in the last `since` s.
+
+        Of a command topic, by every source.
+        """
         about = topic_of(name.path)
         key = f"{name.key}/**" if about.command and "/" not in name.path else name.key
         topic = Topic(name, self._session.overhear(key, DEPTH))
         self._topics.append(topic)
+        history = self._recall(name, handler, since) if since else None
 
         def take(arrival: Arrival) -> None:
             topic.heard = arrival.at
             topic.look_at = arrival.at + GONE_AFTER
-            handler(arrival)
+            if not (history and history.holds(arrival.sample, arrival.at)):
+                handler(arrival)
 
         self._deliveries.append(self._session.deliver(_Inbox(topic.ring), take, self.loop))
         self._session.declare_token(presence.endpoint_key(name, "sub", self._verb, about.types))
@@ -116,6 +126,19 @@ class Listening:
         for delivery in self._deliveries:
             delivery.close()
         self.loop.close()
+
+    def _recall(self, name: Name, handler: Callable[[Arrival], object], since: float) -> "History | None":
+        """Hand over what was said, in the loop's first round; where nobody knows it, say so."""
+        from zteleop.cli._history import History  # which only few ask for
+
+        try:
+            history = History(self._session, name, since)
+        except BusError as error:
+            self._say(f"no history: {error}")
+            return None
+        for sample in history.samples:
+            self.loop.call_soon(partial(handler, Arrival(clock.now(), sample)))
+        return history
 
     def _tell_skipped(self) -> None:
         """Tell what came faster than it could be taken in."""

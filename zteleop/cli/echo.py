@@ -23,6 +23,7 @@ EXAMPLES = (
     "zteleop echo odom",
     "zteleop echo archangel/drive_status --once",
     "zteleop echo drive_status --field state --field why --count 3",
+    "zteleop echo drive_status --since 10s --count 1",
     "zteleop echo odom --csv --header --filter 'm.twist.twist.linear.x >= 0' --count 3",
 )
 CLEAR = "\x1b[H\x1b[2J"
@@ -46,6 +47,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     shown.add_argument(
         "--timeout", metavar="TIME", type=_options.seconds, help="give up after so long a silence: 5, 500ms"
     )
+    since = "begin with what was said in the last 10s, as the robot's black box kept it; at most 60s"
+    shown.add_argument("--since", metavar="TIME", type=_options.seconds, help=since)
     form = parser.add_argument_group("how it looks")
     form.add_argument("--json", action="store_true", help="one message a line, as JSON")
     form.add_argument("--csv", action="store_true", help="one message a row, its values joined by commas")
@@ -64,7 +67,10 @@ def run(arguments: argparse.Namespace) -> None:
     wanted = Wanted(arguments)
     wait, left = arguments.timeout, 1 if arguments.once else arguments.count
     came = shown = 0
-    with listening("echo", [arguments.topic], arguments) as (ears, (name,)):
+    with listening("echo", [arguments.topic], arguments, settle=arguments.since is not None) as (
+        ears,
+        (name,),
+    ):
         wanted.check(name)
         ears.patient = wait is None or wait > TELL_AFTER
 
@@ -96,7 +102,7 @@ def run(arguments: argparse.Namespace) -> None:
             if not left:
                 ears.loop.stop()
 
-        ears.hear(name, show)
+        ears.hear(name, show, arguments.since)
         if wait is not None:
             silence.ring_at(clock.now() + wait)
         telling = ears.loop.alarm(tell)

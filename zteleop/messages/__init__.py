@@ -28,6 +28,7 @@ from zteleop.messages.geometry import (
     TwistWithCovariance,
     Vector3,
 )
+from zteleop.messages.history import GetHistoryRequest, GetHistoryResponse, Said
 from zteleop.messages.irobot import (
     AudioNote,
     AudioNoteVector,
@@ -149,6 +150,8 @@ __all__ = [
     "EmptyRequest",
     "EmptyResponse",
     "FloatingPointRange",
+    "GetHistoryRequest",
+    "GetHistoryResponse",
     "GetParametersRequest",
     "GetParametersResponse",
     "GetTypeRequest",
@@ -185,6 +188,7 @@ __all__ = [
     "Range",
     "Refusals",
     "Refused",
+    "Said",
     "SetBoolRequest",
     "SetBoolResponse",
     "SetParametersRequest",

@@ -16,6 +16,7 @@ from zteleop.bus.topics import TOPICS
 from zteleop.config import Config
 from zteleop.machine import signals
 from zteleop.nodes.blackbox import BlackBox, Writer
+from zteleop.nodes.history import serve_history
 from zteleop.processes import PROGRAMS
 from zteleop.recording.ring import Ring
 
@@ -40,7 +41,9 @@ def run() -> int:
             signal.signal(number, lambda *_: node.stop())
         signal.pthread_sigmask(signal.SIG_UNBLOCK, signals.ENDING)
         writer = Writer(robot, config.state_folder(robot) / "blackbox")
-        BlackBox(node, tap, Ring(known), writer, ear, node.log.warn).run()
+        ring = Ring(known)
+        serve_history(node, ring)
+        BlackBox(node, tap, ring, writer, ear, node.log.warn).run()
     return 0
 
 

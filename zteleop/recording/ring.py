@@ -122,6 +122,13 @@ class Ring:
         else:
             self._elsewhere += 1
 
+    def said_on(self, topic: str) -> list[Raw]:
+        """Return what was said on a topic, and on those below it, the oldest first."""
+        lanes = self._known.lanes | self._others.lanes
+        below = f"{topic}/"
+        wanted = [lane for path, lane in lanes.items() if path == topic or path.startswith(below)]
+        return sorted((raw for lane in wanted for raw in lane.kept), key=lambda raw: raw.at)
+
     def snapshot(self) -> Snapshot:
         """Return what was said in the last SECONDS in which anything was."""
         self._forget()

@@ -10,12 +10,12 @@ def raw(path: str, message: Message, at: float = 5.0) -> Raw:
     return Raw(at, path, codec.encoding_of(type(message)), codec.encode(message), b"", False)
 
 
-def status(state: str, why: str = "so", stop: int = 0) -> Raw:
+def status(state: str, why: str = "so", stop: int = 0, at: float = 5.0) -> Raw:
     message = DriveStatus.zero()
     message.state, message.why = state, why  # type: ignore[assignment]
     if stop or state == "stopped":
         message.stops = [Stop(engaged=True, id=stop, by="ann", why="")]
-    return raw("drive_status", message)
+    return raw("drive_status", message, at)
 
 
 def dog(state: str, restarts: int, why: str = "the actuator is gone: it ended") -> Raw:
@@ -40,6 +40,20 @@ def reasons(*said: Raw) -> list[str | None]:
 )
 def test_a_state_is_a_reason_when_it_begins(state: str, reason: str | None) -> None:
     assert reasons(status("driving"), status(state), status(state)) == [None, reason, None]
+
+
+def test_a_state_that_comes_and_goes_is_a_reason_once_a_minute() -> None:
+    """As it does where a program publishes once a second, and is obeyed for half of it."""
+    said = [status("driving" if half % 2 == 0 else "link lost", at=half / 2) for half in range(250)]
+    found = [trigger for trigger in map(Triggers().hear, said) if trigger]
+    assert [trigger.at for trigger in found] == [0.5, 60.5, 120.5], "each file holds what is between"
+
+
+def test_a_state_that_comes_back_later_is_a_reason_again() -> None:
+    triggers = Triggers()
+    said = [("driving", 1.0), ("link lost", 2.0), ("driving", 3.0), ("link lost", 7.5), ("idle", 8.0)]
+    found = [trigger.at for state, at in said if (trigger := triggers.hear(status(state, at=at)))]
+    assert found == [2.0, 7.5]
 
 
 def test_a_reason_has_the_moment_and_the_sentence_of_its_message() -> None:

@@ -118,6 +118,11 @@ def test_what_does_not_go_together_is_named(text: str, words: str) -> None:
     assert words in str(refusal.value)
 
 
+def test_yes_and_no_and_nothing_are_named_as_they_are() -> None:
+    with pytest.raises(MessageError, match=r"m\.on is True, m\.off is None, m\.parts is a list$"):
+        Filter("m.on < m.off or m.parts").wants({"on": True, "off": None, "parts": []})
+
+
 @given(st.lists(WORDS, max_size=25).map(" ".join) | st.lists(WORDS, max_size=25).map("".join) | st.text())
 @example("m.twist.linear.x" + " * m.twist.linear.x" * 50)
 @example("[" * 60 + "]" * 60)
