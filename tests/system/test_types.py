@@ -98,4 +98,10 @@ def test_who_disagree_are_named(rig: Rig, speaker: Process) -> None:
     assert said.count("Types disagree: ") == 2
     assert said.count("Topic type hash: ") == 4
     speaker.says("warning: robot/bench/soil: dropped: not a acme_msgs/msg/Soil: ")
+    speaker.says(" alone, and drops what is said here, acme_msgs/msg/Soil ")
     assert other.process.poll() is None
+
+
+def test_who_says_another_type_is_told_that_it_is_dropped(rig: Rig, speaker: Process) -> None:
+    _, _, error = asks(rig, "pub", "soil", "std_msgs/msg/Bool", "{data: true}", "--once")
+    assert "hears acme_msgs/msg/Soil alone, and drops what is said here, std_msgs/msg/Bool" in error

@@ -5,6 +5,7 @@ from typing import Any, Self, TypeVar
 
 from zteleop.bus import presence
 from zteleop.bus.answer import Answer
+from zteleop.bus.hearers import Hearers
 from zteleop.bus.log import LEVELS, NodeLog
 from zteleop.bus.membership import Membership
 from zteleop.bus.names import Name, as_typed, chunk, known_as, resolve, robot_name
@@ -106,6 +107,8 @@ class Node:
             raise ConfigError(f"{topic} takes {takes}, found {', '.join(k.__name__ for k in kinds)}")
         self._notice_typo(topic, "publishes {}, which no robot hears")
         self._types.add(name.robot, kinds)
+        if not about.types:  # a topic of somebody's own, which anybody may take for another
+            Hearers(self.membership.session, name, kinds, self.membership.loop, self.log.warn)
         if not about.command:
             return Publisher(self.membership.outlet(name, kinds, about.urgent), kinds)
         return self._command_publisher(name, kinds, source, wait, as_typed(topic, name.robot))

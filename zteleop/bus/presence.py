@@ -21,6 +21,8 @@ from zteleop.bus.session import Sample, Session
 from zteleop.messages import MESSAGES, Message
 
 Kind = Literal["pub", "sub"]
+ANY = "any"
+"""the type of who hears all"""
 DEPARTURES = 100
 PUBLICATIONS = 1000
 
@@ -92,18 +94,17 @@ def _path(key: str) -> str | None:
 
 def endpoint_key(name: Name, kind: Kind, node: str, types: Iterable[type[Message]]) -> str:
     first = next(iter(types), None)
-    ros_type = _told(first) if first else "any"
+    ros_type = "~".join(filter(None, type_of(first))).replace("/", ".") if first else ANY
     return f"robot/{name.robot}/live/{kind}/{node}/{process()}/{ros_type}/{name.path.replace('*', '+')}"
 
 
-def _told(kind: type[Message]) -> str:
-    """Return a type as a token has it."""
-    dotted = kind.ros_type.replace("/", ".")
+def type_of(kind: type[Message]) -> tuple[str, str]:
+    """Return a ROS type, and the hash of its fields where it does not come with zteleop."""
     if kind.ros_type in MESSAGES:
-        return dotted
+        return kind.ros_type, ""
     from zteleop.interfaces.schema import fingerprint  # only for a type of one's own
 
-    return f"{dotted}~{fingerprint(kind)}"
+    return kind.ros_type, fingerprint(kind)
 
 
 def endpoints(session: Session) -> list[Endpoint]:
@@ -193,15 +194,18 @@ def _endpoints(session: Session, kind: str) -> list[Endpoint]:
 
 
 def _endpoints_in(keys: Iterable[str], kind: str) -> list[Endpoint]:
-    found = set()
-    for key in keys:
-        parts = key.split("/", 7)
-        if len(parts) == 8 and parts[3] == kind:
-            _, robot, _, _, node, where, ros_type, topic = parts
-            ros_type, _, digest = ros_type.partition("~")
-            ros_type, topic = ros_type.replace(".", "/"), topic.replace("+", "*")
-            found.add(Endpoint(robot, kind, node, where, ros_type, topic, digest))
-    return list(found)
+    found = {endpoint_of(key) for key in keys}
+    return [one for one in found if one and one.kind == kind]
+
+
+def endpoint_of(key: str) -> Endpoint | None:
+    """Return what a token stands for; None where it is no node's part in a topic."""
+    parts = key.split("/", 7)
+    if len(parts) < 8 or not key.isprintable():
+        return None
+    _, robot, _, kind, node, where, ros_type, topic = parts
+    ros_type, _, digest = ros_type.partition("~")
+    return Endpoint(robot, kind, node, where, ros_type.replace(".", "/"), topic.replace("+", "*"), digest)
 
 
 def _tokens(session: Session, selector: str) -> set[str]:

@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator, Sequence
 
 from zteleop.bus import presence
+from zteleop.bus.hearers import told_apart
 from zteleop.bus.names import Name
 from zteleop.bus.presence import Endpoint, Kind, process
 from zteleop.bus.session import Session
@@ -33,15 +34,13 @@ def meets(name: Name, one: Endpoint) -> bool:
 
 def disagreements(members: Iterable[Endpoint]) -> Iterator[str]:
     """Yield who says on a topic what somebody does not hear: another type, or one with other fields."""
-    members = [one for one in members if one.type != "any" and not topic_of(one.topic).types]
+    members = [one for one in members if one.type != presence.ANY and not topic_of(one.topic).types]
     speakers = {(one.node, one.process, one.type, one.hash) for one in members if one.kind == "pub"}
     hearers = {(one.node, one.process, one.type, one.hash) for one in members if one.kind == "sub"}
     for node, where, ros_type, digest in sorted(speakers):
         for ear, there, wanted, its in sorted(hearers):
             if (ros_type, digest) != (wanted, its):
-                differs = ros_type != wanted
-                said = ros_type if differs else f"{ros_type} {digest}"
-                heard = wanted if differs else its or "another"
+                said, heard = told_apart((ros_type, digest), (wanted, its))
                 yield f"{node} on {where} says {said}; {ear} on {there} hears {heard} alone, and drops it"
 
 

@@ -11,7 +11,6 @@ from zteleop.bus import clock, presence
 from zteleop.bus.escape import printable
 from zteleop.bus.names import Name, resolve
 from zteleop.bus.node import Node
-from zteleop.bus.presence import Endpoint
 from zteleop.bus.publisher import Publisher
 from zteleop.bus.topics import topic_of
 from zteleop.cli import _company, _options
@@ -85,7 +84,6 @@ def run(arguments: argparse.Namespace) -> None:
         # Before anything is said: what reads a type for the first time may swallow a Ctrl-C that comes then.
         outcome = Outcome(node, publisher) if command else None
         wanted = arguments.wait_matching_subscriptions
-        _warn_of_other_types(node, name)
         heard = _await_robot(node, publisher) if command else _await_hearer(node, publisher, name, wanted)
         if command:
             _check_source(node, name)
@@ -218,17 +216,6 @@ def _check_source(node: Node, name: Name) -> None:
             f"robot {name.robot} has no source {source!r}; {nearest(source, known)}; "
             f"[drive.sources.{source}] in its config.toml adds one"
         )
-
-
-def _warn_of_other_types(node: Node, name: Name) -> None:
-    """Say who hears another type there, and drops what is said."""
-    ends = presence.endpoints(node.membership.session)
-    for words in _company.disagreements(_company.members(name, "sub", ends) + _own(name, ends)):
-        print(printable(f"zteleop pub: warning: {words}"), file=sys.stderr)
-
-
-def _own(name: Name, ends: list[Endpoint]) -> list[Endpoint]:
-    return [one for one in _company.members(name, "pub", ends) if one.process == presence.process()]
 
 
 def _await_hearer(node: Node, publisher: Publisher[M], name: Name, wanted: int) -> bool:

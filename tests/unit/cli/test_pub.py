@@ -201,15 +201,3 @@ def test_a_source_that_the_robot_does_not_hear_is_an_error(
             pub._check_source(FakeNode(), Name("abe", path))  # type: ignore[arg-type]
     else:
         pub._check_source(FakeNode(), Name("abe", path))  # type: ignore[arg-type]
-
-
-def test_who_hears_another_type_is_named_before_anything_is_said(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    own = Endpoint("abe", "pub", "pub", pub.presence.process(), "a/msg/Soil", "soil", "11")
-    there = [own, *ends(("sub", "ear", "soil", "a/msg/Rain"), ("pub", "other", "soil", "a/msg/Snow"))]
-    monkeypatch.setattr(pub.presence, "endpoints", lambda session: there)
-    pub._warn_of_other_types(FakeNode(), Name("abe", "soil"))  # type: ignore[arg-type]
-    (line,) = capsys.readouterr().err.splitlines()
-    assert line.startswith("zteleop pub: warning: pub on ")
-    assert line.endswith(" says a/msg/Soil; ear on pi-7 hears a/msg/Rain alone, and drops it")
