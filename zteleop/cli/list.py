@@ -1,4 +1,5 @@
 import argparse
+from collections.abc import Iterable, Iterator
 
 from zteleop.bus import presence
 from zteleop.bus.presence import Endpoint
@@ -9,7 +10,7 @@ from zteleop.errors import BusError
 
 EXAMPLES = (
     "zteleop list",
-    "zteleop list --show-types --verbose",
+    "zteleop list --verbose",
 )
 
 
@@ -34,11 +35,26 @@ def run(arguments: argparse.Namespace) -> None:
     if arguments.count_topics:
         print(len(_company.by_topic(endpoints)))
         return
+    if arguments.verbose:
+        print("\n".join(_with_people(endpoints)))
+        return
     for name, members in _company.by_topic(endpoints).items():
         print(_line(name, members, arguments.show_types))
-        if arguments.verbose:
-            print("".join(f"    also {alias}\n" for alias in topic_of(name.split("/", 2)[2]).aliases), end="")
-            print("\n".join(f"    {m.kind} {m.node} on {m.process}: {m.topic} [{m.type}]" for m in members))
+
+
+def _with_people(endpoints: Iterable[Endpoint]) -> Iterator[str]:
+    """Yield each topic with who publishes it, and then with who hears it, in the words of ROS."""
+    for kind, title, what in (("pub", "Published", "publisher"), ("sub", "Subscribed", "subscriber")):
+        yield f"{title} topics:"
+        for name, members in _company.by_topic(one for one in endpoints if one.kind == kind).items():
+            also = "".join(f", also {alias}" for alias in topic_of(name.split("/", 2)[2]).aliases)
+            plural = "s" if len(members) > 1 else ""
+            yield f" * {_line(name, members, True)} {len(members)} {what}{plural}{also}"
+            plain = topic_of(members[0].topic).name
+            for one in members:
+                yield f"     {one.node} on {one.process}{'' if one.topic == plain else f': {one.topic}'}"
+        if kind == "pub":
+            yield ""
 
 
 def _line(name: str, members: list[Endpoint], show_types: bool) -> str:
