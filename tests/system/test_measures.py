@@ -130,6 +130,8 @@ def test_echo_shows_the_part_that_was_asked_for_so_often_as_was_asked(rig: Rig) 
 
 def test_types_are_told_as_ros_does_and_filled_in_for_pub(rig: Rig) -> None:
     assert "    geometry_msgs/msg/Twist\n" in rig.result("interface", "list").stdout
+    service = rig.result("interface", "show", "std_srvs/srv/SetBool")
+    assert (service.stdout, service.stderr) == ("bool data\n---\nbool success\nstring message\n", "")
     shown = rig.result("interface", "show", "geometry_msgs/msg/Twist").stdout
     assert "Vector3 linear\n\tfloat64 x\n\tfloat64 y\n\tfloat64 z\nVector3 angular\n" in shown
     proto = rig.result("interface", "proto", "Twist").stdout
@@ -188,6 +190,7 @@ def test_a_motion_for_some_time_ends_with_neutral(rig: Rig) -> None:
 def test_pub_may_wait_for_several_or_for_nobody(rig: Rig) -> None:
     assert "publishing #1" in ask(rig, "pub nowhere String --once -w 0")
     waits = rig.join("pub", "wide", "String", "--once", "-w", "2")
+    waits.says("zteleop pub: waits for 2 who hear bench/wide: nobody hears it")
     ears = [rig.join("echo", "wide", "--once") for _ in range(2)]
     assert [ear.ends() for ear in ears] == [0, 0]
     assert waits.ends() == 0

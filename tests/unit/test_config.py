@@ -129,7 +129,10 @@ def test_a_file_that_cannot_be_read_is_told(home: Path) -> None:
             "2:1: drive.mixer.kind: expected 'ackermann' or 'differential', found",
         ),
         ("[bus]\nmode = 'boss'", "2:1: bus.mode: expected 'client' or 'peer' or 'router', found 'boss'"),
-        ("[bus]\nconnect = [1]", "2:1: bus.connect: expected a list, each of it text, found a list"),
+        (
+            "[bus]\nconnect = [1]",
+            "2:1: bus.connect: expected an endpoint such as tcp/pi.local:7447 or tcp/[::]:7447, found 1",
+        ),
         ("driver = 'pca'", "1:1: driver: no driver named 'pca'; did you mean pca9685?"),
         ("[drivers.pca]", "1:2: drivers: no driver named 'pca'; did you mean pca9685?"),
         ("[drivers.pca9685]\nport = 1", "2:1: drivers.pca9685.port: no such setting; known: address, "),

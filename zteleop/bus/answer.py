@@ -30,6 +30,9 @@ ADVICE: dict[str, str] = {
 """What to do, where the robot's own words are not enough."""
 
 
+IN_VAIN = "a robot on wheels obeys linear.x and angular.z, and both are 0"
+
+
 class Answer:
     """Follows what the robot says to one sender, and says to its log what changed."""
 
@@ -64,8 +67,12 @@ class Answer:
         more = " any more" if self._heard.beat else ""
         self._log.warn(
             f"robot {self._robot} is not heard{more}; what is said on {self._topic} moves nothing "
-            f"until its actuator is on (zteleop list shows who is){self._hint}"
+            f"until its actuator is on (zteleop node list shows who is there){self._hint}"
         )
+
+    def tell_in_vain(self) -> None:
+        """Say that nothing of what is asked for is what a robot on wheels does."""
+        self._log.warn(f"what is said on {self._topic} moves nothing: {IN_VAIN}")
 
     def heed(self, moving: bool) -> None:
         """Take in what the robot has answered; only who wants to move something misses it."""

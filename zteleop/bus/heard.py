@@ -1,14 +1,17 @@
 """What a node hears of a robot that it commands."""
 
 import time
+from collections.abc import Callable
 
 from zteleop.bus import clock
 from zteleop.bus.subscription import Subscription
 from zteleop.control.proof import NEVER
 from zteleop.messages import Beat, Refusals, Vehicle
 
-HEARD_WITHIN, START = 1.0, 6.0
-"""s for the robot to be heard, and then for its start to be over."""
+HEARD_WITHIN, START = 10.0, 16.0
+"""s for the robot to be heard, and then for its start to be over: who starts both does so in any order."""
+TELL_AFTER = 1.0
+"""s of that until it is told for whom somebody waits"""
 _POLL = 0.002
 
 
@@ -41,14 +44,19 @@ class Heard:
         """It is there, and its start is over."""
         return self.beat is not None and self.vehicle is not None and self.vehicle.ready
 
-    def wait(self) -> bool:
+    def wait(self, tell: Callable[[], object]) -> bool:
         """Wait, once, for the robot to be heard, and while it starts; True when it is there.
 
+        Of one that is not there soon, `tell`.
         What moves before a beat, or before the start is over, would have begun too early to drive it.
         """
         began, self._waited = (NEVER if self._waited else clock.now()), True
+        told = False
         self.listen()
-        while not self.ready and clock.now() - began < (START if self.there else HEARD_WITHIN):
+        while not self.ready and (waited := clock.now() - began) < (START if self.there else HEARD_WITHIN):
+            if not told and not self.there and waited > TELL_AFTER:
+                told = True
+                tell()
             time.sleep(_POLL)
             self.listen()
         return self.there

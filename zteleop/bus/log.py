@@ -75,7 +75,9 @@ class NodeLog:
             self._held_back += 1
             return
         self._said[subject] = Said(now, now, min(2 * said.pause, LONGEST_PAUSE) if said else FORGOTTEN_AFTER)
-        text = printable(text[:500]) + (f" ({self._held_back} more left out)" if self._held_back else "")
+        text = printable(text[:500]) + (
+            f" ({self._held_back} other lines left out)" if self._held_back else ""
+        )
         self._held_back = 0
         self._publish(Log(clock.stamp(), level, self._name, text, "", "", 0))
         self.show(f"{self._name}: {_WORDS[level]}: {text}")

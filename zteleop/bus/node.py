@@ -5,6 +5,7 @@ from typing import Any, Self, TypeVar
 
 from zteleop.bus import presence
 from zteleop.bus.answer import Answer
+from zteleop.bus.heard import HEARD_WITHIN
 from zteleop.bus.hearers import Hearers
 from zteleop.bus.log import LEVELS, NodeLog
 from zteleop.bus.membership import Membership
@@ -86,11 +87,16 @@ class Node:
             stderr.flush()
 
     def await_robot(self) -> bool:
-        """Wait, at most 1 s, until the robot is heard, and 6 s while it starts; True when it is there.
+        """Wait, at most 10 s, until the robot is heard, and 6 s more while it starts; True when it is there.
 
         What moves before that has begun too early to drive it. A publisher of commands waits likewise.
         """
-        return self.membership.heard().wait()
+        return self._await(self.membership.own_robot())
+
+    def _await(self, robot: str) -> bool:
+        words = f"waits for robot {robot}, {HEARD_WITHIN:g} s at most; is its actuator on?"
+        hint = f"{self._hint} (zteleop node list shows who is there)"
+        return self.membership.heard(robot).wait(lambda: self.log.info(words + hint))
 
     def publisher(
         self, topic: str, types: Types[M], *, source: str = "program", wait: bool = True
@@ -128,7 +134,7 @@ class Node:
         if name.path == about.name:
             name = Name(name.robot, f"{about.name}/{chunk(source, 'a source')}")
         heard = self.membership.heard(name.robot)
-        found = heard.wait() if wait else True
+        found = self._await(name.robot) if wait else True
         sender = new_id()
         answer = Answer(f"{sender:x}", said, name.robot, heard, self.log, self._hint)
         if not found:

@@ -14,13 +14,19 @@ SAME_MACHINE = f"tcp/127.0.0.1:{PORT}"
 SAME_MACHINE_DOOR = f"{SAME_MACHINE}{IF_FREE}"
 
 
+_HOST = r"(\[[0-9A-Fa-f:.%]+\]|[^\s/:\[\]]+)"
+ENDPOINT = rf"^((tcp|udp|tls|quic|ws)/{_HOST}:\d{{1,5}}([?#].*)?$|unixsock-stream/.|{BEHIND}.)"
+_SUCH_AS = f"an endpoint such as tcp/pi.local:{PORT} or tcp/[::]:{PORT}"
+Endpoint = Annotated[str, Meta(pattern=ENDPOINT, description=_SUCH_AS)]
+
+
 class BusSettings(Struct, frozen=True, forbid_unknown_fields=True):
     """How to join the bus. On an open LAN: peers that find each other, in any order."""
 
     mode: Literal["peer", "client", "router"] = "peer"
-    connect: list[str] = []
+    connect: list[Endpoint] = []
     """endpoints such as tcp/pi.local:7447, besides what multicast finds"""
-    listen: list[str] = []
+    listen: list[Endpoint] = []
     multicast: bool = True
     patience: Annotated[float, Meta(ge=0, le=3600)] = 3.0
     """s a client waits for its router"""

@@ -8,12 +8,10 @@ import time
 import zenoh
 
 from zteleop.bus import linger
-from zteleop.bus.settings import PORT, SAME_MACHINE, BusSettings
+from zteleop.bus.settings import ENDPOINT, PORT, SAME_MACHINE, BusSettings
 from zteleop.errors import BusError, ConfigError
 
-_ENDPOINT = re.compile(
-    r"(tcp|udp|tls|quic|ws)/(\[[0-9A-Fa-f:.%]+\]|[^\s/:\[\]]+):\d{1,5}([?#].*)?$|unixsock-stream/."
-)
+_ENDPOINT = re.compile(ENDPOINT)
 _RUNTIME = "ZENOH_RUNTIME"
 _THREADS = "(rx:({rx}),acc:(handover:app),tx:({tx}),net:(handover:app),app:(worker_threads:1))"
 _ONE_THREAD = _THREADS.format(rx="handover:app", tx="handover:app")

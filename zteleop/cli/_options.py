@@ -101,7 +101,7 @@ def find_robot(session: Session, settings: Config) -> str:
 
     Raises ConfigError when there are several.
     """
-    return settings.robot or heard_robot(session) or own_robot()
+    return settings.robot or heard_robot(session) or spoken_of(session) or own_robot()
 
 
 def heard_robot(session: Session) -> str | None:
@@ -110,6 +110,12 @@ def heard_robot(session: Session) -> str | None:
     if len(found) > 1:
         raise ConfigError(f"{len(found)} robots are on the bus: {', '.join(found)}; say --robot NAME")
     return found[0] if found else None
+
+
+def spoken_of(session: Session) -> str | None:
+    """Return the only robot that nodes are here for, be its actuator off; None where there is no one such."""
+    found = {node.robot for node in presence.nodes(session)}
+    return found.pop() if len(found) == 1 else None
 
 
 def own_robot() -> str:

@@ -1,8 +1,9 @@
 """What became of the commands that a verb said."""
 
+from zteleop.bus.answer import IN_VAIN
 from zteleop.bus.node import Node
 from zteleop.bus.publisher import Publisher
-from zteleop.control.command import moves
+from zteleop.control.command import asks_in_vain, moves
 from zteleop.errors import BusError
 from zteleop.messages import DriveStatus, Message
 
@@ -17,6 +18,7 @@ class Outcome:
         self._node = node
         self._publisher = publisher
         self._moved = False
+        self._in_vain = False
         self._obeyed = False
         self._why = ""
         node.subscription("drive_status", DriveStatus, lambda received: self._heed(received.message))
@@ -24,9 +26,12 @@ class Outcome:
     def note(self, message: Message) -> None:
         """Remember that something was asked for that moves."""
         self._moved |= moves(message, self._node.membership.heard().vehicle)
+        self._in_vain |= asks_in_vain(message)
 
     def check(self) -> None:
         """Raise BusError where it did nothing of that; wait a moment for its word."""
+        if not self._moved and self._in_vain:
+            raise BusError(f"nothing of it moves a robot: {IN_VAIN}")
         if not self._moved:
             return
         self._node.membership.until(lambda: self._obeyed or self._publisher.refused, ANSWERED_WITHIN)

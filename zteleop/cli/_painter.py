@@ -39,6 +39,10 @@ class Shown(Protocol):
         """What there is to say of it, by a short name: how sure it is what the operator holds."""
 
     @property
+    def in_vain(self) -> str:
+        """What to do, while the operator does something that counts for nothing."""
+
+    @property
     def help(self) -> Sequence[tuple[str, str]]:
         """Which keys and buttons there are, and what each does, while somebody wants to see them."""
 
@@ -69,6 +73,7 @@ class Painter:
             idle_left=left if left is None else round(left, 1),
             looking=view.status is None and clock.now() < self._looks_until,
             about=device.about,
+            in_vain=device.in_vain,
             keys=device.help,
         )
         size = terminal.size()

@@ -1,10 +1,12 @@
 """Types by their names: those that come along, those of ROS, and those that somebody on the bus speaks."""
 
+from collections.abc import Sequence
+
 from zteleop.bus.session import open_session
 from zteleop.bus.settings import BusSettings
 from zteleop.bus.types import ask_type
 from zteleop.errors import MessageError
-from zteleop.messages import Message, message_type
+from zteleop.messages import SERVICES, Message, is_called, message_type
 
 
 def find_type(name: str, bus: BusSettings) -> type[Message]:
@@ -23,6 +25,11 @@ def find_type(name: str, bus: BusSettings) -> type[Message]:
             if told := ask_type(session, name):
                 return told
     raise MessageError(f"{unknown} (and nobody on the bus speaks it)")
+
+
+def service_of(name: str) -> Sequence[type[Message]]:
+    """Return request and response of the service of that name; nothing where it is none."""
+    return next((halves for ros_type, halves in SERVICES.items() if is_called(ros_type, name)), ())
 
 
 def _of_ros(name: str) -> type[Message] | None:

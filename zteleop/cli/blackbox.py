@@ -48,7 +48,7 @@ def run(arguments: argparse.Namespace) -> None:
         print(words, file=sys.stderr if arguments.json else sys.stdout)
     if not what and not arguments.json:
         print(f"({printable(str(path))})")
-        print(f"({_age(recording.header)} old; the next is written 1 to 10 s after what it tells of)")
+        print(f"({_age(recording.header)} old; the next one of a robot that is on comes 1 to 10 s late)")
 
 
 def _age(header: Header) -> str:

@@ -2,11 +2,12 @@ import argparse
 
 from zteleop.bus.escape import printable
 from zteleop.cli import _options
-from zteleop.cli._types import find_type
+from zteleop.cli._types import find_type, service_of
 from zteleop.interfaces.definition import Comments, definition
 
 EXAMPLES = (
     "zteleop interface show geometry_msgs/msg/Twist",
+    "zteleop interface show std_srvs/srv/SetBool",
     "zteleop interface show DriveStatus --all-comments",
 )
 
@@ -22,5 +23,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> None:
     comments: Comments = "all" if arguments.all_comments else "none" if arguments.no_comments else "first"
-    kind = find_type(arguments.type, _options.load(arguments).bus)
-    print(printable(definition(kind, comments), keep="\n\t"))
+    kinds = service_of(arguments.type) or [find_type(arguments.type, _options.load(arguments).bus)]
+    print(printable("\n---\n".join(definition(kind, comments) for kind in kinds), keep="\n\t"))

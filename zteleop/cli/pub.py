@@ -9,6 +9,7 @@ import msgspec
 
 from zteleop.bus import clock, presence
 from zteleop.bus.escape import printable
+from zteleop.bus.loop import FAR
 from zteleop.bus.names import Name, resolve
 from zteleop.bus.node import Node
 from zteleop.bus.publisher import Publisher
@@ -58,8 +59,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--wait-matching-subscriptions",
         metavar="N",
         type=int,
-        default=1,
-        help="wait for so many who hear it (1); of a command for its robot",
+        help="wait until so many hear it (without this 3 s for one); of a command for its robot",
     )
     parser.add_argument("-t", "--times", metavar="N", type=_options.count, help="say it N times and end")
     parser.add_argument(
@@ -83,8 +83,13 @@ def run(arguments: argparse.Namespace) -> None:
         command = topic_of(name.path).command
         # Before anything is said: what reads a type for the first time may swallow a Ctrl-C that comes then.
         outcome = Outcome(node, publisher) if command else None
-        wanted = arguments.wait_matching_subscriptions
-        heard = _await_robot(node, publisher) if command else _await_hearer(node, publisher, name, wanted)
+        asked = arguments.wait_matching_subscriptions
+        wanted = 1 if asked is None else asked
+        heard = (
+            _await_robot(node, publisher)
+            if command
+            else _await_hearer(node, publisher, name, wanted, HEARD_WITHIN if asked is None else FAR)
+        )
         if command:
             _check_source(node, name)
         if not heard and times is None:
@@ -201,7 +206,7 @@ def _await_robot(node: Node, publisher: Publisher[Message]) -> bool:
         print(printable(f"zteleop pub: waits for {node.robot}; {here}"), file=sys.stderr, flush=True)
         if not node.membership.until(answers, HEARD_WITHIN - TELL_AFTER):
             raise BusError(f"robot {node.robot} does not answer; is its actuator on? {here}")
-    heard.wait()
+    heard.wait(lambda: None)  # it is there: only its start may not be over
     return True
 
 
@@ -218,15 +223,13 @@ def _check_source(node: Node, name: Name) -> None:
         )
 
 
-def _await_hearer(node: Node, publisher: Publisher[M], name: Name, wanted: int) -> bool:
+def _await_hearer(node: Node, publisher: Publisher[M], name: Name, wanted: int, patience: float) -> bool:
     """Wait for so many who hear a topic, and say who does; False when nobody is known to."""
     start, told = clock.now(), False
-    while (
-        not (heard := _hears(node, publisher, name, wanted))
-        and (waited := clock.now() - start) < HEARD_WITHIN
-    ):
+    while not (heard := _hears(node, publisher, name, wanted)) and (waited := clock.now() - start) < patience:
         if waited > TELL_AFTER and not told:
-            print(f"zteleop pub: waits for who hears {name}: {_who_hears(node, name)}", file=sys.stderr)
+            whom = "who hears" if wanted == 1 else f"{wanted} who hear"
+            print(f"zteleop pub: waits for {whom} {name}: {_who_hears(node, name)}", file=sys.stderr)
             told = True
         node.spin(SETTLE)
     node.spin(SETTLE)

@@ -224,16 +224,24 @@ class Admission:
         if newest and newest.at <= (end := self.interruption.ended) and not self.silences.idle(newest, end):
             return "link lost", f"{self.interruption.why}; {_name(newest)} goes on with its next act"
         if newest is None:
-            gone = f"{self._gone[0]} is gone; the next act drives" if self._gone else ""
+            gone = f"{self._gone[0]} is gone; whoever begins drives" if self._gone else ""
             return ("link lost", gone) if gone else ("idle", "nobody drives")
         silence = self._sources[newest.source].silence
         fell_silent, unheard = newest.at + silence, newest.beat + silence + HEARD_LATE
         if self.silences.idle(newest, min(now, fell_silent, unheard)):  # the first deadline to pass
             idle = f"no act on {_name(newest)} for {now - newest.acted:.1f} s"
             return "operator idle", f"{idle}; the next one drives"
+        if self._waits_for_an_act(newest, now):
+            return "link lost", f"{_name(newest)} was not heard for a while, and waits for a new act"
         if now < fell_silent:
             return "link lost", f"{_name(newest)} has not heard the robot for {now - newest.beat:.1f} s"
         return "link lost", f"{_name(newest)} has been silent for {now - newest.at:.1f} s"
+
+    def _waits_for_an_act(self, claim: Claim, now: float) -> bool:
+        """Say whether a sender talks on, and all of it was decided before its link came back."""
+        refused = self.refusals.recent(now, RECENT).get(claim.source)
+        is_its = refused is not None and refused.sender == claim.sender
+        return is_its and refused is not None and refused.why is Refusal.INTERRUPTED
 
     def _judge(
         self, source: str, command: Twist | Pwm, proof: Proof | None, moving: bool, now: float

@@ -29,6 +29,12 @@ def neutral(kind: type[Message], vehicle: Vehicle | None) -> Message | None:
     return pwm if issubclass(kind, Pwm) else Int16MultiArray(MultiArrayLayout.zero(), ticks)
 
 
+def asks_in_vain(message: Message) -> bool:
+    """Say whether a twist asks only for what no ground robot does: to go sideways or up, to roll or pitch."""
+    twist = message.twist if isinstance(message, TwistStamped) else message
+    return isinstance(twist, Twist) and twist != Twist.zero() and not twist.moves
+
+
 def moves(message: Message, vehicle: Vehicle | None) -> bool:
     """Say whether a command is anything but neutral."""
     if isinstance(message, TwistStamped):

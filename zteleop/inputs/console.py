@@ -87,6 +87,11 @@ class Console:
         return [("pad", self.pad.words)]
 
     @property
+    def in_vain(self) -> str:
+        """Nothing: a pad tells what is held."""
+        return ""
+
+    @property
     def switches(self) -> dict[str, bool]:
         """Which switches there are, and which are on."""
         return self.keyboard.switches

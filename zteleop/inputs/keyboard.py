@@ -111,9 +111,12 @@ class Keyboard:
         if self.tells_releases:
             how = self._typed.releases.how
             return f"release told ({how})" if self._typed.releases.focused else "no focus: neutral"
-        if self._block.is_felt(self._now):
-            return f"pressed in vain: let go for {FIRST} s"
         return "release guessed; kitty, foot, ghostty tell it"
+
+    @property
+    def in_vain(self) -> str:
+        """What to do, while a key is pressed that counts as held since before the robot was at rest."""
+        return f"let go for {FIRST} s" if self._block.is_felt(self._now) else ""
 
     @property
     def switches(self) -> dict[str, bool]:

@@ -5,6 +5,8 @@ import subprocess
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 
+from zteleop.machine.signals import ending
+
 LAST_WORD = b"end\n"
 """The watchdog's last word; without it, it did not end but broke down."""
 DELAY = 1.0
@@ -33,6 +35,9 @@ class Recorder:
             return
         if self._due is None:
             self._due = self._plan(now)
+            if self._process and self._due < float("inf"):
+                how = ending(self._process.returncode)
+                self._warn(f"the black box is gone: it ended{how}; another starts in {self._due - now:g} s")
         elif now >= self._due:
             self._due, self._started = None, now
             self._start()

@@ -48,3 +48,13 @@ def _raise(number: int, frame: FrameType | None) -> None:
         # At a prompt an exit would end the interpreter, and with it what was typed so far.
         raise KeyboardInterrupt if hasattr(sys, "ps1") else Interrupted(128 + number)
     raise SystemExit(128 + number)
+
+
+def stay(tell: Callable[[], object]) -> None:
+    """Let Ctrl-Z stop nothing; `tell` is called within the handler."""
+    signal.signal(signal.SIGTSTP, lambda *_: tell())
+
+
+def ending(code: int | None) -> str:
+    """Return by which signal a process with this exit code ended, in words; nothing where by none."""
+    return f", by {signal.Signals(-code).name}" if code and code < 0 else ""

@@ -101,6 +101,11 @@ class Stopping:
             self.is_over |= not self._shows(status)
         if self.state == "pending":
             self._go_on(status, now)
+        elif self.unanswered and status and not self.repeats(now) and not status.stops:
+            words = (
+                f"{self.robot} is heard again, and not stopped: that stop never reached it; press once more"
+            )
+            self._refuse("failed", words, now)
         elif self.unanswered and status and self._shows(status):
             self._hear(status, now)
         if (self.state == "pending" or self.repeats(now)) and self._ways.is_due(now):

@@ -71,7 +71,8 @@ class Watchdog:
         for number in signals.ENDING:
             if signal.getsignal(number) != signal.SIG_IGN:  # which nohup wants
                 signal.signal(number, self._end_by)
-        signal.signal(signal.SIGTSTP, signal.SIG_IGN)  # Ctrl-Z would leave the wheels turning
+        words = "Ctrl-Z would leave the wheels turning, and pauses nothing; Ctrl-C ends this"
+        signals.stay(lambda: self._node.membership.loop.call_soon(lambda: self._node.log.warn(words)))
         try:
             self._start()
             self._node.every(STEP_EVERY)(self._tick)
@@ -200,8 +201,7 @@ class Watchdog:
         if self._child.link:
             self._node.membership.loop.unwatch(self._child.link.fileno())
         code = self._child.end(wait)
-        if wait and code and code < 0:  # it ended by itself, or somebody ended it
-            why = f"{why}, by {signal.Signals(-code).name}"
+        why += signals.ending(code) if wait else ""  # it ended by itself, or somebody ended it
         self._rest()
         if self._never_stepped and code and code > 0:  # it has said why, in a sentence of its own
             self._exit_code = code

@@ -1,5 +1,6 @@
 """Runs a program that a watchdog starts: `python -m zteleop.processes NAME FILE...`, the files inherited."""
 
+import signal
 import sys
 from importlib import import_module
 
@@ -10,6 +11,7 @@ from zteleop.processes.ending import in_words
 
 def main(arguments: list[str]) -> int:
     """Run one program; return its exit code."""
+    signal.signal(signal.SIGTSTP, signal.SIG_IGN)  # its watchdog says why
     try:
         return in_words("zteleop actuator", lambda: _run(*arguments))  # which is what somebody typed
     except KeyboardInterrupt:

@@ -36,6 +36,8 @@ class Dashboard(NamedTuple):
     """which robots could have been meant, where this one is not heard"""
     about: Sequence[tuple[str, str]] = ()
     """what there is to say of the device, by a short name: how sure it is which keys are held"""
+    in_vain: str = ""
+    """what to do, while what the operator does counts for nothing"""
     floor: Sequence[Mark] = ()
     """lies around the robot"""
     bound: Mapping[str, str] = USUAL

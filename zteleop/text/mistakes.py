@@ -1,7 +1,7 @@
 """Everything that is wrong with values somebody wrote: where, what was expected, found, and is near."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any, NamedTuple, get_args
+from typing import Any, NamedTuple, get_args, get_origin
 
 import msgspec
 from msgspec import inspect
@@ -34,6 +34,9 @@ def mistakes(
     elif isinstance(info, inspect.DictType) and isinstance(values, dict):
         for name, value in values.items():
             yield from mistakes(value, get_args(kind)[1], kinds, (*path, name))
+    elif isinstance(info, inspect.ListType) and isinstance(values, list) and get_origin(kind) is list:
+        for value in values:
+            yield from mistakes(value, get_args(kind)[0], kinds, path)
     else:
         yield from _alone(values, kind, info, path)
 
@@ -101,7 +104,7 @@ def _whole(values: dict[str, object], cls: Any, path: Path) -> Iterator[Mistake]
 
 def _alone(value: object, kind: Any, info: inspect.Type, path: Path) -> Iterator[Mistake]:
     if words := _refusal(value, kind):
-        expected = _expected(info)
+        expected = _expected(info) or _described(inspect.type_info(kind))
         told = f"expected {expected}, found {_found(value)}" if expected else words
         choices = info.values if isinstance(info, inspect.LiteralType) else ()
         yield Mistake(path, told + _near(value, choices))
@@ -143,6 +146,13 @@ def _expected(info: inspect.Type) -> str:
         inner = _expected(_bare(info.item_type))
         return f"a list, each of it {inner}" if inner else "a list"
     return "a table" if isinstance(info, inspect.DictType) else ""
+
+
+def _described(info: inspect.Type) -> str:
+    """Return what a type says of itself, where it does."""
+    said = info.extra_json_schema if isinstance(info, inspect.Metadata) else None
+    words = (said or {}).get("description", "")
+    return str(words)
 
 
 def _range(info: inspect.IntType | inspect.FloatType) -> str:

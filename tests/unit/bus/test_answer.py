@@ -136,6 +136,16 @@ def test_a_robot_that_was_never_heard_is_missed(sender: Sender) -> None:
     assert "is not heard; what" in sender.news[0]
 
 
+def test_who_asks_for_what_no_wheels_do_is_told(sender: Sender) -> None:
+    sender.answer.tell_in_vain()
+    sender.answer.tell_in_vain()
+    (line,) = sender.news
+    assert line == (
+        "nose: warning: what is said on cmd_vel moves nothing: "
+        "a robot on wheels obeys linear.x and angular.z, and both are 0"
+    )
+
+
 def test_who_was_told_at_the_start_is_not_told_again(sender: Sender) -> None:
     sender.answer.miss()
     sender.say(3.0, beats=False)

@@ -92,7 +92,7 @@ def test_it_waits_until_the_first_beat_and_the_vehicle(
 ) -> None:
     beats.samples.append(sample(Beat(1, 5.0, 0.0)))
     vehicles.samples.append(sample(CAR))
-    assert robot.wait()
+    assert robot.wait(lambda: pytest.fail("it is there"))
     assert robot.beat == Beat(1, 5.0, 0.0)
     assert naps == []
 
@@ -100,9 +100,10 @@ def test_it_waits_until_the_first_beat_and_the_vehicle(
 def test_it_waits_for_a_robot_that_is_not_there_once_and_not_for_ever(
     robot: Heard, clock: Clock, naps: list[float]
 ) -> None:
-    start = clock.time
-    robot.wait()
+    start, told = clock.time, list[float]()
+    assert not robot.wait(lambda: told.append(clock.time))
+    assert told == [pytest.approx(start + heard.TELL_AFTER, abs=0.01)]
     assert clock.time == pytest.approx(start + heard.HEARD_WITHIN, abs=0.01)
     naps.clear()
-    robot.wait()
+    robot.wait(lambda: pytest.fail("once is enough"))
     assert naps == []

@@ -44,14 +44,14 @@ def test_what_goes_on_is_spoken_of_ever_more_seldom_and_what_was_held_back_is_co
         clock.pass_by(0.1)
     assert ears.texts == [
         "smells odd 0",
-        "smells odd 10 (9 more left out)",
-        "smells odd 30 (19 more left out)",
-        "smells odd 70 (39 more left out)",
+        "smells odd 10 (9 other lines left out)",
+        "smells odd 30 (19 other lines left out)",
+        "smells odd 70 (39 other lines left out)",
     ]
     clock.pass_by(1.0)
     ears.log.warn("smells again", "smell")
     ears.log.warn("smells again", "smell")
-    assert ears.texts[4:] == ["smells again (9 more left out)"]
+    assert ears.texts[4:] == ["smells again (9 other lines left out)"]
 
 
 def test_however_long_it_goes_on_it_is_told_twice_a_minute(ears: Ears, clock: Clock) -> None:

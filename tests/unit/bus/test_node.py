@@ -22,7 +22,7 @@ HEARD = ("beat", "vehicle", "refusals")
 
 @pytest.fixture
 def session(clock: Clock, monkeypatch: pytest.MonkeyPatch) -> Session:
-    monkeypatch.setattr(Heard, "wait", Heard.listen)
+    monkeypatch.setattr(Heard, "wait", lambda heard, tell: heard.listen())
     return Session()
 
 

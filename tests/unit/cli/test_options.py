@@ -154,3 +154,14 @@ def test_where_a_file_lets_its_robot_listen_everybody_else_connects(
     assert (other.listen, other.connect) == others
     typed = _options.load(parse("-l", "tcp/[::]:9", "-e", "tcp/b:3")).bus
     assert (typed.listen, typed.connect) == (["tcp/[::]:9"], ["tcp/b:3"])
+
+
+def test_where_no_actuator_is_on_the_only_robot_that_nodes_are_here_for_is_meant(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    lonely = Session([presence.node_key("abe", "sim"), presence.node_key("abe", "keyboard")])
+    assert _options.find_robot(lonely, Config()) == "abe"  # type: ignore[arg-type]
+    assert capsys.readouterr().err == ""
+    both = Session([presence.node_key(robot, "sim") for robot in ("abe", "zoe")])
+    assert _options.find_robot(both, Config()).startswith("car-")  # type: ignore[arg-type]
+    assert "none is heard" in capsys.readouterr().err

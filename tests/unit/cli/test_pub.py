@@ -10,7 +10,7 @@ from zteleop.cli import _options, pub
 from zteleop.control.gate import Refusal
 from zteleop.control.resume import Resume
 from zteleop.errors import BusError
-from zteleop.messages import DriveStatus, Message, Refusals, Refused, Twist
+from zteleop.messages import DriveStatus, Header, Message, Refusals, Refused, Twist, TwistStamped, Vector3
 from zteleop.testing import Clock, FakeNode, Said
 
 FORWARD = Twist.planar(0.5)
@@ -201,3 +201,14 @@ def test_a_source_that_the_robot_does_not_hear_is_an_error(
             pub._check_source(FakeNode(), Name("abe", path))  # type: ignore[arg-type]
     else:
         pub._check_source(FakeNode(), Name("abe", path))  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("stamped", [False, True])
+def test_a_motion_that_no_wheels_make_is_a_failure(stamped: bool) -> None:
+    sideways = Twist(Vector3(0.0, 0.2, 0.0), Vector3(1.0, 0.0, 0.0))
+    message = TwistStamped(Header.zero(), sideways) if stamped else sideways
+    with pytest.raises(
+        BusError, match=r"^nothing of it moves a robot: a robot on wheels obeys linear\.x and"
+    ):
+        say(message, 3, 10)
+    assert say(Twist.zero(), 3, 10) == 3 * [Twist.zero()], "rest is meant, and had"

@@ -287,7 +287,7 @@ def test_a_sender_whose_process_is_gone_lets_go_at_once() -> None:
     step = robot.step()
     assert (step.state, step.why, moves(step)) == (
         "link lost",
-        "keyboard 0001 is gone; the next act drives",
+        "keyboard 0001 is gone; whoever begins drives",
         False,
     )
     assert robot.say(FORWARD, "b") is None  # and somebody else may take over

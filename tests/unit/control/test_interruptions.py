@@ -405,3 +405,15 @@ def test_a_pause_that_began_with_an_interruption_is_told_as_that_one() -> None:
     robot.now += 0.1
     robot.drive.admission.resume("deaf", "the watchdog did not hear it", robot.now)
     assert robot.step().why.startswith("the watchdog did not hear it; ")
+
+
+def test_whoever_talks_on_without_an_act_is_not_told_that_he_is_silent(robot: Robot) -> None:
+    """A keyboard in steps, whose levers stand: it repeats what it was told before its link was lost."""
+    robot.hold(FORWARD, 0.5)
+    robot.wait(0.5)
+    assert not moves(robot.hold(FORWARD, 0.5, act=False))
+    waits = "keyboard 0001 was not heard for a while, and waits for a new act"
+    assert robot.drive.admission.rest(robot.now) == ("link lost", waits)
+    robot.hold(FORWARD, 2.5, act=False)
+    state, why = robot.drive.admission.rest(robot.now)
+    assert (state, "silent" in why) == ("idle", False)

@@ -99,7 +99,10 @@ def test_one_that_ends_is_started_again_later_and_later_and_a_few_times_only(
     pauses = [late - soon for soon, late in pairwise(starts)]
     assert pauses == sorted(pauses)
     assert all(process.stdin.closed for process in started[:-1])
-    assert warnings == [f"the black box has ended {STARTS} times in a row, and is not started again"]
+    assert warnings == [
+        *(f"the black box is gone: it ended; another starts in {2**n} s" for n in range(1, STARTS)),
+        f"the black box has ended {STARTS} times in a row, and is not started again",
+    ]
 
 
 def test_one_that_ends_now_and_then_is_started_each_time(
@@ -110,8 +113,9 @@ def test_one_that_ends_now_and_then_is_started_each_time(
         recorder.tend(now)
         recorder.tend(now + DELAY)
         assert len(started) == number + 1
-        started[-1].returncode = 1
-    assert not warnings
+        started[-1].returncode = -9
+    told = "the black box is gone: it ended, by SIGKILL; another starts in 1 s"
+    assert warnings == (2 * STARTS - 1) * [told]
 
 
 def test_what_cannot_be_started_is_said_and_ends_nothing(

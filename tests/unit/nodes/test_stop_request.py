@@ -484,3 +484,17 @@ def test_a_person_without_a_name_can_stop_too(monkeypatch: pytest.MonkeyPatch) -
 
     monkeypatch.setattr(getpass, "getuser", unknown)
     assert person().startswith("somebody@")
+
+
+def test_a_robot_that_is_heard_again_and_not_stopped_ends_the_alarm(asker: Asker) -> None:
+    """Else the screen says for ever to cut the power of a robot that drives."""
+    asker.engage()
+    asker.wait(REPEAT - 2 * TICK)
+    asker.heed(idle())
+    assert asker.stopping.unanswered, "it is still being said"
+    asker.heed(idle(), 3 * TICK)
+    assert not asker.stopping.unanswered
+    words = "archangel is heard again, and not stopped: that stop never reached it; press once more"
+    assert asker.outcome == ("failed", words)
+    asker.heed(shows("stopped", Stop(True, 77, "ann@desk", "")))
+    assert asker.outcome == ("failed", words), "another's stop is none of this one"

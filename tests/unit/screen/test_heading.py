@@ -143,3 +143,9 @@ def test_a_screen_names_the_key_that_releases_a_stop(car):
     board = dashboard("step", car, status=status(state="stopped", why=why))
     words = "stopped by ann@desk: a cat; r releases it, then begin from neutral"
     assert texts(heading(board, 80, True))[1] == words
+
+
+def test_a_key_that_counts_as_held_since_before_is_told_what_to_do(car):
+    board = dashboard("step", car, status=status(state="idle", why="nobody drives"))
+    shown = texts(heading(board._replace(in_vain="let go for 0.6 s"), 80, True))
+    assert "this key counts as held since before: let go for 0.6 s, then press it again" in shown
