@@ -54,7 +54,7 @@ def test_a_higher_priority_takes_over_at_once_and_nothing_is_mixed(rig: Rig) -> 
         stands(rig, LEFT_TICKS)
         with Watch(rig) as watch:
             with repeating(lambda: web.publish(RIGHT), 0.02):
-                stands(rig, RIGHT_TICKS)
+                until(lambda: RIGHT_TICKS in watch.seen, "the page's command, by who watches")
                 hear(statuses, lambda status: status.source == "web", "that the page drives")
             web.publish(Pwm(*NEUTRAL))
             stands(rig, LEFT_TICKS)

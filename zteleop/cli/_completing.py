@@ -102,12 +102,17 @@ def _values(place: Place, typed: list[str], last: str) -> Iterable[str]:
     if place.dest in ("robot", "named"):
         return _on_the_bus(typed, lambda graph: {node.robot for node in graph.nodes})
     if place.dest == "service":
-        return _on_the_bus(typed, lambda graph: [f"/{one.robot}/{one.topic}" for one in graph.all_services])
+        return _on_the_bus(
+            typed, lambda graph: _begun(last, [(one.robot, one.topic) for one in graph.all_services])
+        )
     if place.dest == "parameter":
         return _parameters(typed)
     if place.dest == "node":
-        return _on_the_bus(typed, lambda graph: _nodes(graph, last))
-    return _types(place.dest)
+        return _on_the_bus(typed, lambda graph: _begun(last, [(one.robot, one.node) for one in graph.nodes]))
+    known = _types(place.dest)
+    if place.dest == "type" and not any(name.startswith(last) for name in known):
+        return _on_the_bus(typed, lambda graph: {one.type for one in graph.endpoints})
+    return known
 
 
 def _topics(graph: Any, last: str) -> Iterable[str]:
@@ -121,10 +126,10 @@ def _topics(graph: Any, last: str) -> Iterable[str]:
     return with_robot if not last or any(name.startswith(last) for name in with_robot) else plain
 
 
-def _nodes(graph: Any, last: str) -> Iterable[str]:
-    """Return nodes in the form that was begun: with a slash, with a robot, or by their own names."""
-    forms = ("/{0.robot}/{0.node}",) if last.startswith("/") else ("{0.node}", "{0.robot}/{0.node}")
-    found = [[form.format(node) for node in graph.nodes] for form in forms]
+def _begun(last: str, names: Iterable[tuple[str, str]]) -> Iterable[str]:
+    """Return nodes or services in the form that was begun: with a slash, by their names, or with robots."""
+    forms = ("/{0[0]}/{0[1]}",) if last.startswith("/") else ("{0[1]}", "{0[0]}/{0[1]}")
+    found = [[form.format(name) for name in names] for form in forms]
     return next((names for names in found if any(name.startswith(last) for name in names)), ())
 
 

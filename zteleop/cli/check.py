@@ -5,7 +5,7 @@ from pathlib import Path
 import msgspec
 
 from zteleop import config
-from zteleop.cli.up import program
+from zteleop.cli.up import programs_of
 from zteleop.config import Config
 from zteleop.control.report import to_vehicle
 from zteleop.drivers import DRIVERS, settings_of, tick_us
@@ -25,9 +25,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> None:
     path = arguments.file or arguments.config
     settings = config.load(path)
-    for name, words in settings.launch.items():
-        program(name, words, path or Path("config.toml"))
-    what = path or config.found() or "no config file: the built-in simulated car"
+    path = path or config.found()
+    if path:
+        programs_of(settings.launch, path)
+    what = path or "no config file: the built-in simulated car"
     print(f"{what}: good\n{_summary(settings)}")
 
 

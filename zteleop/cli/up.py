@@ -12,6 +12,7 @@ from zteleop.cli._completing import places_of
 from zteleop.errors import ConfigError, nearest
 from zteleop.machine.launch import Launch, Program
 from zteleop.terminal.capabilities import wants_color
+from zteleop.text.toml_places import place, places
 
 EXAMPLES = (
     "zteleop up",
@@ -58,11 +59,26 @@ def run(arguments: argparse.Namespace) -> int:
     if not launch or path is None:
         where = path or "config.toml"
         raise ConfigError(f'nothing to start: write [launch] into {where}, such as robot = "actuator"')
-    programs = {name: program(name, words, path) for name, words in launch.items()}
+    programs = programs_of(launch, path)
     if arguments.systemd:
         print("\n".join(unit(name, one) for name, one in programs.items()), end="")
         return 0
     return Launch(programs, teller(programs)).run()
+
+
+def programs_of(launch: Mapping[str, str], path: Path) -> dict[str, Program]:
+    """Return what each entry of a file's [launch] starts; raises ConfigError, a line for each mistake."""
+    found, mistakes = dict[str, Program](), list[str]()
+    written = places(path.read_text()) if launch else {}
+    for name, words in launch.items():
+        try:
+            found[name] = program(name, words, path)
+        except ConfigError as error:
+            where = place(written, ("launch", name)) or ()
+            mistakes.append(f"{':'.join(map(str, (path, *where)))}: {error}")
+    if mistakes:
+        raise ConfigError("\n".join(mistakes))
+    return found
 
 
 def program(name: str, words: str, path: Path) -> Program:

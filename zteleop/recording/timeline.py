@@ -76,6 +76,9 @@ class Timeline:
         self.events: list[Event] = []
         self._senders = Senders(self._note)
         self._status: _Status | None = None
+        self._rest: list[int] = []
+        """ticks of pulses that moved nothing"""
+        self._moving = False
         self._dog: _Dog | None = None
         self._beat: tuple[int, float] | None = None
         self._stops: set[tuple[int, bool]] = set()
@@ -120,9 +123,18 @@ class Timeline:
         before, self._status = self._status, status
         if before is None or (before.state, before.operator) != (status.state, status.operator):
             self._note(at, f"{status.state}: {status.why}")
-        if before and _moves(before) != _moves(status):
+        moving, was = self._pulses_move(status), self._moving
+        self._moving = moving
+        if before and was != moving:
             pulses = ", ".join(f"{p.name} {p.duty_ticks}" for p in reversed(status.pulses))
-            self._note(at, f"pulses {'move' if _moves(status) else 'at rest'}: {pulses}")
+            self._note(at, f"pulses {'move' if moving else 'at rest'}: {pulses}")
+
+    def _pulses_move(self, status: _Status) -> bool:
+        """Say whether pulses move something that can be told: less than a tick beside rest cannot."""
+        ticks = [pulse.duty_ticks for pulse in status.pulses]
+        at_rest = not any(pulse.fraction for pulse in status.pulses)
+        self._rest = ticks if at_rest else self._rest
+        return not at_rest and ticks != self._rest
 
     def _hear_stop(self, stop: _Stop, at: float) -> None:
         if (stop.id, stop.engaged) in self._stops:  # it is repeated until it is acknowledged
@@ -163,10 +175,6 @@ def timeline(header: Header, lines: Sequence[Recorded]) -> list[Event]:
     heard.finish(last)
     events = [*heard.events, *_floods(header)]
     return _mark(header, list(_gather(sorted(events, key=lambda event: event.at))))
-
-
-def _moves(status: _Status) -> bool:
-    return any(pulse.fraction for pulse in status.pulses)
 
 
 def _floods(header: Header) -> Iterator[Event]:

@@ -75,12 +75,15 @@ def output_ticks(d: Dashboard) -> str:
 
 def speeds_line(d: Dashboard, columns: int) -> Line:
     """Return what a full stick means, and the keys that change it."""
-    turns = d.seen.vehicle is None or not d.seen.vehicle.steers
+    vehicle, forward, turning = d.seen.vehicle, d.speeds.forward, d.speeds.turn
+    if vehicle:  # whatever is wished for, a full stick means no more than the robot can
+        forward, turning = min(forward, vehicle.max_speed), min(turning, vehicle.max_turn)
+    turns = vehicle is None or not vehicle.steers
     if columns < SHORT:
-        turn = f"{d.speeds.turn:5.2f}" if turns else "lock"
-        return labelled(4, "speeds", f"{d.speeds.forward:5.2f} {turn}", columns)
-    turn = f"{d.speeds.turn:.2f} rad/s{keys(d, 'turn faster', 'turn slower')}" if turns else "full lock"
-    return labelled(4, "full", f"{d.speeds.forward:.2f} m/s{keys(d, 'faster', 'slower')}  {turn}", columns)
+        turn = f"{turning:5.2f}" if turns else "lock"
+        return labelled(4, "speeds", f"{forward:5.2f} {turn}", columns)
+    turn = f"{turning:.2f} rad/s{keys(d, 'turn faster', 'turn slower')}" if turns else "full lock"
+    return labelled(4, "full", f"{forward:.2f} m/s{keys(d, 'faster', 'slower')}  {turn}", columns)
 
 
 def keys(d: Dashboard, *actions: str) -> str:

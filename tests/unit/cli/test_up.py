@@ -46,6 +46,16 @@ def test_an_entry_that_cannot_be_started_is_refused(words: str, refusal: str) ->
         up.program("x", words, PATH)
 
 
+def test_each_mistake_of_a_file_is_told_with_its_place(tmp_path: Path) -> None:
+    file = tmp_path / "config.toml"
+    file.write_text('[launch]\nrobot = "actuatr"\nworld = "sim"\nx = ""\n')
+    with pytest.raises(ConfigError) as refusal:
+        up.programs_of({"robot": "actuatr", "world": "sim", "x": ""}, file)
+    first, second = str(refusal.value).splitlines()
+    assert first.startswith(f"{file}:2:1: launch.robot: no program 'actuatr'")
+    assert second.startswith(f"{file}:4:1: launch.x: expected a command")
+
+
 def test_a_unit_starts_the_same_and_an_actuators_is_watched() -> None:
     text = up.unit("robot", up.program("robot", "actuator", PATH))
     assert text.startswith("# /etc/systemd/system/zteleop-robot.service\n[Unit]\n")

@@ -180,6 +180,15 @@ def test_pulses_are_told_when_they_leave_rest_and_come_back() -> None:
     ]
 
 
+def test_pulses_that_differ_by_less_than_a_tick_are_at_rest() -> None:
+    least = [{"name": "throttle", "fraction": 0.01, "duty_ticks": 370}, REST[1]]
+    lines = [status(-3.0, "idle", "", REST), status(-2.0, "idle", "", least), status(-1.0, "idle", "", MOVED)]
+    assert told(*lines, status(-0.5, "idle", "", least), status(0.0, "idle", "", REST))[1:] == [
+        "-1.00 pulses move: steering 375, throttle 390",
+        "-0.50 pulses at rest: steering 375, throttle 370",
+    ]
+
+
 def test_a_stop_and_its_release_are_told_once_and_by_whom() -> None:
     stop = {"engaged": True, "id": 7, "by": "ann", "why": "a child"}
     lines = [line(0.05 * n, "stop", stop) for n in range(5)]

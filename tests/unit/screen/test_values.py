@@ -83,8 +83,13 @@ def test_what_a_full_stick_means(car, tank):
         assert text(speeds_line(board, columns).spans) == words
 
 
+def test_a_full_stick_means_no_more_than_the_robot_can(car):
+    board = dashboard("hold", car, speeds=Speeds(99.0, 1.0))
+    assert f"full      {car.max_speed:.2f} m/s" in text(speeds_line(board, 80).spans)
+
+
 def test_the_keys_of_the_speeds_are_those_that_are_bound(tank):
     board = dashboard("hold", tank)._replace(bound=first_keys(KEYMAPS["twist"]))
-    assert text(speeds_line(board, 80).spans) == "full      0.50 m/s w/x  1.00 rad/s e/c"
+    assert text(speeds_line(board, 80).spans) == "full      0.30 m/s w/x  1.00 rad/s e/c"
     board = board._replace(bound={"faster": "u"})
-    assert text(speeds_line(board, 80).spans) == "full      0.50 m/s  1.00 rad/s"
+    assert text(speeds_line(board, 80).spans) == "full      0.30 m/s  1.00 rad/s"
