@@ -1,6 +1,9 @@
 """What became of the commands that a verb said."""
 
+import sys
+
 from zteleop.bus.answer import IN_VAIN
+from zteleop.bus.escape import printable
 from zteleop.bus.node import Node
 from zteleop.bus.publisher import Publisher
 from zteleop.control.command import asks_in_vain, moves
@@ -9,6 +12,8 @@ from zteleop.messages import DriveStatus, Message
 
 ANSWERED_WITHIN = 0.5
 """s to wait for the robot's word on what it did not obey"""
+LIKE = 1.001
+"""of a bound, beyond which somebody asks for more"""
 
 
 class Outcome:
@@ -21,6 +26,8 @@ class Outcome:
         self._in_vain = False
         self._obeyed = False
         self._why = ""
+        self._told = False
+        """It was said that more is asked for than the robot can."""
         node.subscription("drive_status", DriveStatus, lambda received: self._heed(received.message))
 
     def note(self, message: Message) -> None:
@@ -39,5 +46,20 @@ class Outcome:
             raise BusError(f"nothing of it was obeyed: {self._publisher.refused or self._why}")
 
     def _heed(self, status: DriveStatus) -> None:
-        self._obeyed |= status.state == "driving" and status.operator == self._publisher.sender
+        ours = status.state == "driving" and status.operator == self._publisher.sender
+        self._obeyed |= ours
         self._why = f"{status.state}: {status.why}"
+        if ours and not self._told and (words := self._beyond(status)):
+            self._told = True
+            print(printable(f"zteleop pub: {words}"), file=sys.stderr, flush=True)
+
+    def _beyond(self, status: DriveStatus) -> str:
+        """Return what is asked for beyond what the robot makes of it; nothing where all of it is within."""
+        speed, turn = abs(status.wanted.linear.x), abs(status.wanted.angular.z)
+        vehicle = self._node.membership.heard().vehicle
+        if speed > LIKE * status.max_speed:
+            why = f": {status.slowed}" if status.slowed else ""
+            return f"{speed:g} m/s are asked for, and it makes {status.max_speed:g} at most{why}"
+        if vehicle and turn > LIKE * vehicle.max_turn:
+            return f"{turn:g} rad/s are asked for, and it makes {vehicle.max_turn:.3g} at most"
+        return ""

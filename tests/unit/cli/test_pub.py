@@ -10,7 +10,17 @@ from zteleop.cli import _options, pub
 from zteleop.control.gate import Refusal
 from zteleop.control.resume import Resume
 from zteleop.errors import BusError
-from zteleop.messages import DriveStatus, Header, Message, Refusals, Refused, Twist, TwistStamped, Vector3
+from zteleop.messages import (
+    DriveStatus,
+    Header,
+    Message,
+    Refusals,
+    Refused,
+    Twist,
+    TwistStamped,
+    Vector3,
+    Vehicle,
+)
 from zteleop.testing import Clock, FakeNode, Said
 
 FORWARD = Twist.planar(0.5)
@@ -87,6 +97,34 @@ def test_what_is_said_so_many_times_stays_said_for_as_long_as_it_is_obeyed() -> 
     said, node = Said("cmd_vel", "ff"), FakeNode()
     say(FORWARD, 3, 10, said, node)
     assert (said.messages, said.lets_go, node.stayed) == ([FORWARD] * 3, 0, 0.5)
+
+
+@pytest.mark.parametrize(
+    ("asked", "slowed", "words"),
+    [
+        (Twist.planar(0.5), "", ""),
+        (Twist.planar(-50.0, 1.0), "", "50 m/s are asked for, and it makes 0.5 at most\n"),
+        (
+            Twist.planar(0.6),
+            "limits.speed is set to 0.5 m/s",
+            "0.6 m/s are asked for, and it makes 0.5 at most: limits.speed is set to 0.5 m/s\n",
+        ),
+        (Twist.planar(0.0, 99.0), "", "99 rad/s are asked for, and it makes"),
+    ],
+)
+def test_who_asks_for_more_than_the_robot_makes_is_told_once(
+    capsys: pytest.CaptureFixture[str], car: Vehicle, asked: Twist, slowed: str, words: str
+) -> None:
+    node, status = FakeNode(), does("driving", "", "ff")
+    node.membership.heard().vehicle = car
+    status.wanted, status.max_speed, status.slowed = asked, 0.5, slowed
+    outcome = pub.Outcome(node, Said("cmd_vel", "ff"))  # type: ignore[arg-type]
+    for _ in range(3):
+        node.inboxes["drive_status"].handlers[0](SimpleNamespace(message=status))
+    told = capsys.readouterr().err
+    assert told.startswith(f"zteleop pub: {words}" if words else "")
+    assert told.count("\n") == bool(words)
+    outcome.check()
 
 
 def test_who_is_ended_leaves_at_once() -> None:
