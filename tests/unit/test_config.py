@@ -130,6 +130,10 @@ def test_a_file_that_cannot_be_read_is_told(home: Path) -> None:
         ),
         ("[bus]\nmode = 'boss'", "2:1: bus.mode: expected 'client' or 'peer' or 'router', found 'boss'"),
         (
+            "[bus]\nlisten = ['tcp/[::]:7447', '7447']",
+            "2:1: bus.listen: expected an endpoint such as tcp/pi.local:7447 or tcp/[::]:7447, found '7447'",
+        ),
+        (
             "[bus]\nconnect = [1]",
             "2:1: bus.connect: expected an endpoint such as tcp/pi.local:7447 or tcp/[::]:7447, found 1",
         ),

@@ -3,6 +3,7 @@
 from zteleop.bus import clock
 from zteleop.bus.heard import Heard
 from zteleop.bus.log import NodeLog
+from zteleop.control.command import IN_VAIN
 from zteleop.control.gate import Refusal
 from zteleop.control.proof import NEVER
 from zteleop.control.settings import SOURCES
@@ -28,9 +29,6 @@ ADVICE: dict[str, str] = {
     Refusal.OPERATOR_IDLE: "act again",
 }
 """What to do, where the robot's own words are not enough."""
-
-
-IN_VAIN = "a robot on wheels obeys linear.x and angular.z, and both are 0"
 
 
 class Answer:

@@ -9,7 +9,7 @@ from zteleop.control.proof import NEVER
 from zteleop.messages import Beat, Refusals, Vehicle
 
 HEARD_WITHIN, START = 10.0, 16.0
-"""s for the robot to be heard, and then for its start to be over: who starts both does so in any order."""
+"""s for the robot to be heard, and for its start to be over as well: who starts both does so in any order"""
 TELL_AFTER = 1.0
 """s of that until it is told for whom somebody waits"""
 _POLL = 0.002

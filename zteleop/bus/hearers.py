@@ -21,26 +21,25 @@ class Hearers:
     """Those of one topic; `tell` hears a sentence of each who hears it as no type that it is said in."""
 
     def __init__(
-        self,
-        session: Session,
-        name: Name,
-        kinds: Iterable[type[Message]],
-        loop: Loop,
-        tell: Callable[[str], object],
+        self, session: Session, name: Name, kinds: Iterable[type[Message]], tell: Callable[[str], object]
     ) -> None:
         selector = f"robot/{name.robot}/live/sub/*/*/*/{name.path}"
         self._ring = session.watch_tokens(selector, COMINGS, history=True)
         self._name = name
         self._said = [presence.type_of(kind) for kind in kinds]
         self._tell = tell
-        self._alarm = loop.alarm(self._look)
-        self._alarm.ring_at(clock.now() + FIRST_LOOK)
 
-    def _look(self) -> None:
+    def watch(self, loop: Loop) -> None:
+        """Look at who comes, in a loop, for as long as that runs."""
+        alarm = loop.alarm(lambda: alarm.ring_at(self._look()))
+        alarm.ring_at(clock.now() + FIRST_LOOK)
+
+    def _look(self) -> float:
+        """Look at who has come; return when to look again."""
         while (sample := self._ring.try_recv()) is not None:
             if sample.is_put and (one := presence.endpoint_of(sample.key)):
                 self._judge(one)
-        self._alarm.ring_at(clock.now() + LOOK_EVERY)
+        return clock.now() + LOOK_EVERY
 
     def _judge(self, one: presence.Endpoint) -> None:
         heard = one.type, one.hash

@@ -95,7 +95,7 @@ class Node:
 
     def _await(self, robot: str) -> bool:
         words = f"waits for robot {robot}, {HEARD_WITHIN:g} s at most; is its actuator on?"
-        hint = f"{self._hint} (zteleop node list shows who is there)"
+        hint = f" (zteleop node list shows who is there){self._hint}"
         return self.membership.heard(robot).wait(lambda: self.log.info(words + hint))
 
     def publisher(
@@ -114,7 +114,7 @@ class Node:
         self._notice_typo(topic, "publishes {}, which no robot hears")
         self._types.add(name.robot, kinds)
         if not about.types:  # a topic of somebody's own, which anybody may take for another
-            Hearers(self.membership.session, name, kinds, self.membership.loop, self.log.warn)
+            Hearers(self.membership.session, name, kinds, self.log.warn).watch(self.membership.loop)
         if not about.command:
             return Publisher(self.membership.outlet(name, kinds, about.urgent), kinds)
         return self._command_publisher(name, kinds, source, wait, as_typed(topic, name.robot))

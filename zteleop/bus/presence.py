@@ -129,9 +129,9 @@ def everybody(session: Session) -> Everybody:
     """Return all of it, by one question: of several, each would wait for whoever does not answer."""
     keys = _tokens(session, "robot/*/live/**")
     return Everybody(
-        sorted(_endpoints_in(keys, "pub") + _endpoints_in(keys, "sub")),
+        _endpoints_in(keys, "pub", "sub"),
         _members_in(keys, "node"),
-        sorted(_endpoints_in(keys, "srv")),
+        _endpoints_in(keys, "srv"),
         _members_in(keys, "param"),
     )
 
@@ -190,12 +190,13 @@ def _members_in(keys: Iterable[str], kind: str) -> list[Member]:
 
 
 def _endpoints(session: Session, kind: str) -> list[Endpoint]:
-    return sorted(_endpoints_in(_tokens(session, f"robot/*/live/{kind}/**"), kind))
+    return _endpoints_in(_tokens(session, f"robot/*/live/{kind}/**"), kind)
 
 
-def _endpoints_in(keys: Iterable[str], kind: str) -> list[Endpoint]:
-    found = {endpoint_of(key) for key in keys}
-    return [one for one in found if one and one.kind == kind]
+def _endpoints_in(keys: Iterable[str], *kinds: str) -> list[Endpoint]:
+    wanted = [f"/live/{kind}/" for kind in kinds]
+    found = {endpoint_of(key) for key in keys if any(part in key for part in wanted)}
+    return sorted(one for one in found if one and one.kind in kinds)
 
 
 def endpoint_of(key: str) -> Endpoint | None:

@@ -12,8 +12,6 @@ from zteleop.messages import GetHistoryRequest, GetHistoryResponse, Said
 from zteleop.nodes.history import SERVICE
 from zteleop.recording.ring import SECONDS
 
-KEPT = SECONDS
-"""s that a black box keeps"""
 OVERLAP = 0.2
 """s after the answer in which what waits to be heard may be what was answered"""
 
@@ -25,8 +23,8 @@ class History:
     """
 
     def __init__(self, session: Session, name: Name, seconds: float) -> None:
-        if seconds > KEPT:
-            raise BusError(f"a black box keeps {KEPT:g} s, found {seconds:g}")
+        if seconds > SECONDS:
+            raise BusError(f"a black box keeps {SECONDS:g} s, found {seconds:g}")
         began = clock.now()
         found = list(_ask(session, name, seconds))
         self._ended = clock.now()

@@ -2,18 +2,17 @@
 
 import sys
 
-from zteleop.bus.answer import IN_VAIN
 from zteleop.bus.escape import printable
 from zteleop.bus.node import Node
 from zteleop.bus.publisher import Publisher
-from zteleop.control.command import asks_in_vain, moves
+from zteleop.control.command import IN_VAIN, asks_in_vain, moves
 from zteleop.errors import BusError
 from zteleop.messages import DriveStatus, Message
 
 ANSWERED_WITHIN = 0.5
 """s to wait for the robot's word on what it did not obey"""
-LIKE = 1.001
-"""of a bound, beyond which somebody asks for more"""
+TOLERANCE = 1.001
+"""times a bound, beyond which somebody asks for more"""
 
 
 class Outcome:
@@ -57,9 +56,9 @@ class Outcome:
         """Return what is asked for beyond what the robot makes of it; nothing where all of it is within."""
         speed, turn = abs(status.wanted.linear.x), abs(status.wanted.angular.z)
         vehicle = self._node.membership.heard().vehicle
-        if speed > LIKE * status.max_speed:
+        if speed > TOLERANCE * status.max_speed:
             why = f": {status.slowed}" if status.slowed else ""
             return f"{speed:g} m/s are asked for, and it makes {status.max_speed:g} at most{why}"
-        if vehicle and turn > LIKE * vehicle.max_turn:
+        if vehicle and turn > TOLERANCE * vehicle.max_turn:
             return f"{turn:g} rad/s are asked for, and it makes {vehicle.max_turn:.3g} at most"
         return ""

@@ -69,7 +69,7 @@ def run(arguments: argparse.Namespace) -> int:
 def programs_of(launch: Mapping[str, str], path: Path) -> dict[str, Program]:
     """Return what each entry of a file's [launch] starts; raises ConfigError, a line for each mistake."""
     found, mistakes = dict[str, Program](), list[str]()
-    written = places(path.read_text()) if launch else {}
+    written = places(path.read_text("utf-8")) if launch else {}
     for name, words in launch.items():
         try:
             found[name] = program(name, words, path)

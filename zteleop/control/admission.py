@@ -163,6 +163,9 @@ class Admission:
         sender = proof.sender if proof else 0
         if verdict.refusal:
             self.refusals.note(source, sender, verdict.refusal, now)
+            is_back = self._gone and self._gone[0] == called(source, f"{sender:x}")
+            if is_back and verdict.refusal is not Refusal.INTERRUPTED:
+                self._gone = None  # who was gone is here, and refused
         else:
             self.refusals.clear(source, sender)
         return verdict
@@ -240,8 +243,7 @@ class Admission:
     def _waits_for_an_act(self, claim: Claim, now: float) -> bool:
         """Say whether a sender talks on, and all of it was decided before its link came back."""
         refused = self.refusals.recent(now, RECENT).get(claim.source)
-        is_its = refused is not None and refused.sender == claim.sender
-        return is_its and refused is not None and refused.why is Refusal.INTERRUPTED
+        return refused is not None and (refused.sender, refused.why) == (claim.sender, Refusal.INTERRUPTED)
 
     def _judge(
         self, source: str, command: Twist | Pwm, proof: Proof | None, moving: bool, now: float

@@ -4,6 +4,9 @@ from zteleop.control.stick import neutral_pwm
 from zteleop.errors import MessageError
 from zteleop.messages import Int16MultiArray, Message, MultiArrayLayout, Pwm, Twist, TwistStamped, Vehicle
 
+IN_VAIN = "a robot on wheels obeys linear.x and angular.z, and both are 0"
+"""what is to be said of what `asks_in_vain`"""
+
 
 def to_command(message: Message) -> Twist | Pwm:
     """Return what a message commands; raises MessageError when it commands nothing."""

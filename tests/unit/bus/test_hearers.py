@@ -29,7 +29,7 @@ class Desk:
     def __init__(self, clock: Clock, kind: type[Message]) -> None:
         self.session, self.told, self._clock = Session(), list[str](), clock
         self.loop = Loop(lambda: None)
-        Hearers(self.session, CHATTER, [kind], self.loop, self.told.append)  # type: ignore[arg-type]
+        Hearers(self.session, CHATTER, [kind], self.told.append).watch(self.loop)  # type: ignore[arg-type]
 
     def comes(self, *keys: str, is_put: bool = True) -> None:
         self.session.comings.samples.extend(put(b"", key=key, is_put=is_put) for key in keys)

@@ -61,6 +61,7 @@ def test_endpoints_are_told_once_and_in_order() -> None:
         "robot/archangel/live/pub/nose/host-1/any/\x1b[2J",
         "robot/\x1b[2J/live/pub/nose/host-1/any/odom",
         "robot/*/live/pub/nose/host-1/any/odom",
+        "robot/archangel/live/other/nose/host-1/any/live/pub/odom",
     ],
 )
 def test_a_strangers_token_is_left_out(key: str) -> None:

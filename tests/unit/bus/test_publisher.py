@@ -26,6 +26,7 @@ from zteleop.messages import (
     String,
     Twist,
     TwistStamped,
+    Vector3,
     Vehicle,
 )
 from zteleop.testing import Clock
@@ -276,3 +277,11 @@ def test_whatever_is_not_surely_neutral_moves(
     message: Message, vehicle: Vehicle | None, moving: bool
 ) -> None:
     assert moves(message, vehicle) is moving
+
+
+def test_who_asks_for_what_no_wheels_do_is_told(clock: Clock, capsys: pytest.CaptureFixture[str]) -> None:
+    operator = Operator()
+    operator.publisher.publish(REST)
+    assert capsys.readouterr().out == ""
+    operator.publisher.publish(Twist(Vector3(0.0, 0.2, 0.0), Vector3.zero()))
+    assert "what is said on cmd_vel moves nothing" in capsys.readouterr().out

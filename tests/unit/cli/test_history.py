@@ -7,10 +7,11 @@ from unit.bus.fakes import put
 from zteleop.bus import codec
 from zteleop.bus.names import Name
 from zteleop.bus.session import Reply
-from zteleop.cli._history import KEPT, OVERLAP, History
+from zteleop.cli._history import OVERLAP, History
 from zteleop.cli._listening import Arrival, Listening
 from zteleop.errors import BusError
 from zteleop.messages import GetHistoryRequest, GetHistoryResponse, Said
+from zteleop.recording.ring import SECONDS
 from zteleop.testing import Clock
 
 ODOM = Name("abe", "odom")
@@ -62,7 +63,7 @@ def test_one_that_has_nothing_and_promises_more_is_not_asked_for_ever(clock: Clo
 
 def test_longer_than_it_is_kept_is_refused_and_so_is_silence(clock: Clock) -> None:
     with pytest.raises(BusError, match="a black box keeps 60 s, found 61"):
-        history(Robot(), KEPT + 1)
+        history(Robot(), SECONDS + 1)
     with pytest.raises(BusError, match="nobody serves"):
         history(Robot())
 

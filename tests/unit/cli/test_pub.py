@@ -119,8 +119,11 @@ def test_who_asks_for_more_than_the_robot_makes_is_told_once(
     node.membership.heard().vehicle = car
     status.wanted, status.max_speed, status.slowed = asked, 0.5, slowed
     outcome = pub.Outcome(node, Said("cmd_vel", "ff"))  # type: ignore[arg-type]
-    for _ in range(3):
-        node.inboxes["drive_status"].handlers[0](SimpleNamespace(message=status))
+    hear = node.inboxes["drive_status"].handlers[0]
+    others = does("driving", "", "aa")
+    others.wanted = Twist.planar(70.0)
+    for said in (others, status, status, status):
+        hear(SimpleNamespace(message=said))
     told = capsys.readouterr().err
     assert told.startswith(f"zteleop pub: {words}" if words else "")
     assert told.count("\n") == bool(words)
@@ -250,3 +253,12 @@ def test_a_motion_that_no_wheels_make_is_a_failure(stamped: bool) -> None:
     ):
         say(message, 3, 10)
     assert say(Twist.zero(), 3, 10) == 3 * [Twist.zero()], "rest is meant, and had"
+
+
+def test_one_motion_that_no_wheels_make_among_others_is_no_failure() -> None:
+    node = FakeNode()
+    outcome = pub.Outcome(node, Said("cmd_vel", "ff"))  # type: ignore[arg-type]
+    for message in (Twist(Vector3(0.0, 0.2, 0.0), Vector3.zero()), FORWARD):
+        outcome.note(message)
+    node.inboxes["drive_status"].handlers[0](SimpleNamespace(message=does("driving", "", "ff")))
+    outcome.check()

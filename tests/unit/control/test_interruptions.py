@@ -417,3 +417,29 @@ def test_whoever_talks_on_without_an_act_is_not_told_that_he_is_silent(robot: Ro
     robot.hold(FORWARD, 2.5, act=False)
     state, why = robot.drive.admission.rest(robot.now)
     assert (state, "silent" in why) == ("idle", False)
+
+
+def test_who_is_back_and_refused_is_not_called_gone(robot: Robot) -> None:
+    """As a program that was suspended until it was missed."""
+    robot.hold(FORWARD, 0.5)
+    robot.drive.admission.withdraw(1, robot.now)
+    robot.wait(3.0)
+    assert "gone" in robot.step().why
+    assert not drives_on(robot)
+    step = robot.step()
+    assert (step.state, step.why.partition(":")[0]) == ("idle", "nobody drives; keyboard 0001 is refused")
+
+
+def test_who_is_back_in_time_is_told_of_his_next_act(robot: Robot) -> None:
+    robot.hold(FORWARD, 0.5)
+    robot.drive.admission.withdraw(1, robot.now)
+    robot.wait(0.5)
+    robot.hold(FORWARD, 0.1, act=False)
+    assert robot.step().why == "keyboard 0001 is gone; whoever begins drives"
+
+
+def test_whoever_is_silent_is_called_so_while_another_is_refused(robot: Robot) -> None:
+    robot.hold(FORWARD, 0.5)
+    assert robot.say(FORWARD, "b") is Refusal.HELD
+    robot.wait(0.5)
+    assert "keyboard 0001 has been silent for 0." in robot.step().why

@@ -83,9 +83,10 @@ def test_what_a_full_stick_means(car, tank):
         assert text(speeds_line(board, columns).spans) == words
 
 
-def test_a_full_stick_means_no_more_than_the_robot_can(car):
-    board = dashboard("hold", car, speeds=Speeds(99.0, 1.0))
-    assert f"full      {car.max_speed:.2f} m/s" in text(speeds_line(board, 80).spans)
+def test_a_full_stick_means_no_more_than_the_robot_can(tank):
+    board = dashboard("hold", tank, speeds=Speeds(99.0, 99.0))
+    words = f"full      {tank.max_speed:.2f} m/s u/j  {tank.max_turn:.2f} rad/s i/k"
+    assert text(speeds_line(board, 80).spans) == words
 
 
 def test_the_keys_of_the_speeds_are_those_that_are_bound(tank):
