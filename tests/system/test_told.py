@@ -150,9 +150,14 @@ def test_the_second_of_two_keyboards_shows_why_it_does_not_drive(rig: Rig) -> No
     assert refused[0].split()[:2] == drives_now[0].split()[:2], "one name for one sender"
 
 
-def test_a_keyboard_of_a_robot_that_is_not_there_says_who_is(rig: Rig) -> None:
-    rig.actuator()
+def test_a_keyboard_of_a_robot_that_is_not_there_says_who_is_now(rig: Rig) -> None:
+    actuator = rig.actuator()
     keyboard = rig.terminal("keyboard", "--no-multicast-scouting", "-e", rig.endpoint, "--robot", "bensh")
+    keyboard.shows("no actuator heard on robot bensh (heard here: bench; did you mean bench?)")
+    actuator.signal(signal.SIGINT)
+    actuator.ends()
+    keyboard.shows(f"no actuator heard on robot bensh (nothing answers at {rig.endpoint}")
+    rig.actuator()
     keyboard.shows("no actuator heard on robot bensh (heard here: bench; did you mean bench?)")
     keyboard.type("q")
     assert keyboard.ends() == 0

@@ -3,11 +3,11 @@
 from zteleop.bus import clock
 from zteleop.bus.heard import Heard
 from zteleop.bus.log import NodeLog
-from zteleop.control.command import IN_VAIN
+from zteleop.control.command import IN_VAIN, STEERS_ONLY, asks_in_vain, steers_only
 from zteleop.control.gate import Refusal
 from zteleop.control.proof import NEVER
 from zteleop.control.settings import SOURCES
-from zteleop.messages import Refusals
+from zteleop.messages import Message, Refusals
 
 UNHEARD = 1.0
 """s without a beat while somebody commands"""
@@ -35,7 +35,14 @@ class Answer:
     """Follows what the robot says to one sender, and says to its log what changed."""
 
     def __init__(
-        self, sender: str, topic: str, robot: str, heard: Heard, log: NodeLog, hint: str = ""
+        self,
+        sender: str,
+        topic: str,
+        robot: str,
+        heard: Heard,
+        log: NodeLog,
+        hint: str = "",
+        is_program: bool = True,
     ) -> None:
         self._sender = sender
         self._topic = topic
@@ -51,6 +58,7 @@ class Answer:
         self._moved = NEVER
         self._slow = 0
         """How often in a row it was moved on too late."""
+        self._advises_turns = is_program
 
     @property
     def refused(self) -> str:
@@ -68,9 +76,15 @@ class Answer:
             f"until its actuator is on (zteleop node list shows who is there){self._hint}"
         )
 
-    def tell_in_vain(self) -> None:
-        """Say that nothing of what is asked for is what a robot on wheels does."""
-        self._log.warn(f"what is said on {self._topic} moves nothing: {IN_VAIN}")
+    def advise(self, message: Message) -> None:
+        """Say of a command that no robot on wheels does it, or, to a program and once, that no car does."""
+        if asks_in_vain(message):
+            self._log.warn(f"what is said on {self._topic} moves nothing: {IN_VAIN}")
+        elif self._advises_turns and steers_only(message, self._heard.vehicle):
+            self._advises_turns = False
+            self._log.warn(
+                f"what is said on {self._topic} turns front wheels and moves nothing: {STEERS_ONLY}"
+            )
 
     def heed(self, moving: bool) -> None:
         """Take in what the robot has answered; only who wants to move something misses it."""

@@ -136,7 +136,7 @@ class Node:
         heard = self.membership.heard(name.robot)
         found = self._await(name.robot) if wait else True
         sender = new_id()
-        answer = Answer(f"{sender:x}", said, name.robot, heard, self.log, self._hint)
+        answer = Answer(f"{sender:x}", said, name.robot, heard, self.log, self._hint, is_program=wait)
         if not found:
             answer.miss()
         self.membership.session.declare_token(presence.sender_key(name.robot, sender))

@@ -25,6 +25,8 @@ ANY = "any"
 """the type of who hears all"""
 DEPARTURES = 100
 PUBLICATIONS = 1000
+ROBOTS = 1000
+_ACTUATORS = "robot/*/live/node/actuator/*"
 
 
 class Endpoint(NamedTuple):
@@ -85,6 +87,23 @@ class Publications:
                 self._tokens[key] = path
         now = set(self._tokens.values())
         return now - before, before - now
+
+
+class Robots:
+    """The robots that have an actuator, as they come and go."""
+
+    def __init__(self, session: Session) -> None:
+        self._ring = session.watch_tokens(_ACTUATORS, ROBOTS, history=True)
+        self._keys: set[str] = set()
+
+    def there(self) -> list[str]:
+        """Return those that are there now."""
+        while (sample := self._ring.try_recv()) is not None:
+            if not sample.is_put:
+                self._keys.discard(sample.key)
+            elif len(self._keys) < ROBOTS:
+                self._keys.add(sample.key)
+        return _robots_of(self._keys)
 
 
 def _path(key: str) -> str | None:
@@ -175,8 +194,11 @@ def rivals(session: Session, robot: str, node: str, before: Iterable[str]) -> li
 
 def robots(session: Session) -> list[str]:
     """Return the robots that have an actuator."""
-    found = {key.split("/")[1] for key in _tokens(session, "robot/*/live/node/actuator/*")}
-    return sorted(filter(is_robot, found))
+    return _robots_of(_tokens(session, _ACTUATORS))
+
+
+def _robots_of(keys: Iterable[str]) -> list[str]:
+    return sorted({robot for key in keys if is_robot(robot := key.split("/")[1])})
 
 
 def _members(session: Session, kind: str) -> list[Member]:

@@ -7,7 +7,7 @@ from zteleop.bus import clock, codec
 from zteleop.bus.answer import Answer
 from zteleop.bus.heard import Heard
 from zteleop.bus.session import Outlet
-from zteleop.control.command import asks_in_vain, moves, neutral
+from zteleop.control.command import moves, neutral
 from zteleop.control.proof import Prover
 from zteleop.errors import BusError, MessageError
 from zteleop.messages import Message
@@ -120,7 +120,6 @@ class Publisher(Generic[M]):
         moving = moves(message, self._heard.vehicle)
         if self._answer:
             self._answer.heed(moving)
-            if not moving and asks_in_vain(message):
-                self._answer.tell_in_vain()
+            self._answer.advise(message)
         proof = self._prover.prove(self._heard.beat, moving, clock.now())
         return codec.pack_proof(proof) if proof else None

@@ -7,7 +7,7 @@ import time
 
 import zenoh
 
-from zteleop.bus import linger
+from zteleop.bus import linger, networks
 from zteleop.bus.settings import ENDPOINT, PORT, SAME_MACHINE, BusSettings
 from zteleop.errors import BusError, ConfigError
 
@@ -110,7 +110,7 @@ def _configure(
                 f"an endpoint is such as tcp/pi.local:{PORT} or tcp/[::]:{PORT}, found {endpoint!r}"
             )
     connect = settings.connect or ([SAME_MACHINE] if settings.mode == "peer" and settings.multicast else [])
-    values = {
+    values: dict[str, object] = {
         "mode": settings.mode,
         "connect/endpoints": connect,
         "connect/timeout_ms": 0 if settings.mode == "client" else -1,  # -1: goes on trying behind our back
@@ -135,6 +135,10 @@ def _configure(
             values[f"transport/link/tx/queue/congestion_control/drop/{name}"] = _SAYS_FOR_US
     if settings.listen:
         values["listen/endpoints"] = settings.listen
+    elif settings.mode == "peer" and networks.is_in_none():
+        values["listen/endpoints"] = ["tcp/[::]:0", "tcp/127.0.0.1:0"]  # of the first, nobody is told
+    if settings.multicast and networks.is_in_none():
+        values["scouting/multicast/interface"] = networks.LOOPBACK
     config = zenoh.Config()
     for key, value in values.items():
         try:

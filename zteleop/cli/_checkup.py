@@ -13,7 +13,7 @@ from datetime import datetime
 from importlib import metadata
 from typing import NamedTuple
 
-from zteleop.bus import presence
+from zteleop.bus import networks, presence
 from zteleop.bus.lane import trial
 from zteleop.bus.session import open_session
 from zteleop.bus.settings import PORT
@@ -139,6 +139,8 @@ def port(patient: Patient) -> Finding:
 def multicast(patient: Patient) -> Finding:
     if not patient.settings.bus.multicast:
         return Finding(None, "switched off: robots are found only where -e, or connect of config.toml, says")
+    if networks.is_in_none():
+        return Finding(None, "this machine is in no network; its own programs and robots find each other")
     try:
         heard, why = trial.hears_itself(), "nothing comes back"
     except OSError as error:

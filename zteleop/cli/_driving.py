@@ -6,7 +6,8 @@ from typing import Protocol, Self
 from zteleop.bus import clock
 from zteleop.bus.lane.call import Call
 from zteleop.bus.node import Node
-from zteleop.cli._company import here
+from zteleop.bus.presence import Robots
+from zteleop.cli._company import who_is_here
 from zteleop.cli._painter import HEARD_WITHIN, Painter, Shown
 from zteleop.config import Config
 from zteleop.control.report import to_vehicle
@@ -62,13 +63,18 @@ def drive_at_terminal(
         device.settle(clock.now)
         paint = Painter(device, known)
         paint(View())
+        session = node.membership.session
+        robots = Robots(session)
         vehicle = find_vehicle(node, settings)
-        if not node.membership.heard().vehicle:
-            paint.known = known._replace(others=here(node.membership.session, known.robot))
         device.settle(clock.now)  # once more: what was typed while nobody looked
 
         def show(view: View) -> None:
             watch(view)
+            if view.status is None:
+                others = [robot for robot in robots.there() if robot != known.robot]
+                unreached = session.unreached()
+                words = who_is_here(others, known.robot, unreached) if others or unreached else ""
+                paint.known = known._replace(others=words)
             switches.heed(device.switches)
             if device.suspending:
                 device.suspend(clock.now())  # its last word is said

@@ -1,11 +1,14 @@
 """What a message on a command topic asks for, and the one that asks for nothing."""
 
+from zteleop.control import curvature
 from zteleop.control.stick import neutral_pwm
 from zteleop.errors import MessageError
 from zteleop.messages import Int16MultiArray, Message, MultiArrayLayout, Pwm, Twist, TwistStamped, Vehicle
 
 IN_VAIN = "a robot on wheels obeys linear.x and angular.z, and both are 0"
 """what is to be said of what `asks_in_vain`"""
+STEERS_ONLY = "a car turns only while it drives; give linear.x as well as angular.z"
+"""what is to be said of what `steers_only`"""
 
 
 def to_command(message: Message) -> Twist | Pwm:
@@ -36,6 +39,14 @@ def asks_in_vain(message: Message) -> bool:
     """Say whether a twist asks only for what no ground robot does: to go sideways or up, to roll or pitch."""
     twist = message.twist if isinstance(message, TwistStamped) else message
     return isinstance(twist, Twist) and twist != Twist.zero() and not twist.moves
+
+
+def steers_only(message: Message, vehicle: Vehicle | None) -> bool:
+    """Say whether a twist asks a car to turn on the spot, which turns its front wheels and nothing else."""
+    twist = message.twist if isinstance(message, TwistStamped) else message
+    if vehicle is None or not vehicle.steers or not isinstance(twist, Twist):
+        return False
+    return twist.angular.z != 0 and not curvature.rolls(twist.linear.x)
 
 
 def moves(message: Message, vehicle: Vehicle | None) -> bool:

@@ -7,6 +7,7 @@ from msgspec.structs import asdict
 from zteleop.control import curvature
 from zteleop.control.cap import Bound
 from zteleop.control.evidence import STANDS, Evidence
+from zteleop.control.mixer import Wheels
 from zteleop.control.mux import Claim
 from zteleop.control.proof import called
 from zteleop.control.snapshot import Snapshot
@@ -53,8 +54,20 @@ def wanted(seen: Snapshot) -> Twist:
         return Twist.planar()
     command = seen.step.claim.command
     if isinstance(command, Pwm):
-        return seen.settings.mixer.unmix(seen.calibration.wheels(command))
+        return _made(seen, seen.calibration.wheels(command))
     return command
+
+
+def applied(seen: Snapshot) -> Twist:
+    """Return what the wheels are to make of it."""
+    return _made(seen, seen.step.wheels)
+
+
+def _made(seen: Snapshot, wheels: Wheels) -> Twist:
+    """Return the body's twist: a car that stands turns its front wheels, and not itself."""
+    twist = seen.settings.mixer.unmix(wheels)
+    stands = seen.settings.mixer.steers and not curvature.rolls(twist.linear.x)
+    return Twist.planar() if stands else twist
 
 
 def _operator(seen: Snapshot) -> str:
@@ -119,13 +132,13 @@ def _limiter(seen: Snapshot) -> str:
     if seen.step.claim is None:
         narrowed = ", ".join(_narrowed(seen))
         return f"nothing to limit; set narrower: {narrowed}" if narrowed else "nothing to limit"
-    asked, applied = wanted(seen), seen.settings.mixer.unmix(seen.step.wheels)
-    if _near(asked, applied):
+    asked, made = wanted(seen), applied(seen)
+    if _near(asked, made):
         return "passes it on as asked"
-    bounds = "; ".join(_bounds(seen, seen.step.claim, asked, applied)) or "the wheels can do no better"
+    bounds = "; ".join(_bounds(seen, seen.step.claim, asked, made)) or "the wheels can do no better"
     others = ", ".join(limit for limit in _narrowed(seen) if limit.partition(" ")[0] not in bounds)
     more = f" (set narrower: {others})" if others else ""
-    return f"makes it {_twist(applied)}: {bounds}{more}"
+    return f"makes it {_twist(made)}: {bounds}{more}"
 
 
 def _narrowed(seen: Snapshot) -> Iterator[str]:
@@ -136,18 +149,20 @@ def _narrowed(seen: Snapshot) -> Iterator[str]:
             yield f"limits.{name} {value:g}"
 
 
-def _bounds(seen: Snapshot, claim: Claim, asked: Twist, applied: Twist) -> Iterator[str]:
+def _bounds(seen: Snapshot, claim: Claim, asked: Twist, made: Twist) -> Iterator[str]:
     """Yield what bounds a claim."""
     mixer, limits = seen.settings.mixer, seen.limits
     speed = seen.step.bound.speed
     if abs(asked.linear.x) > speed + _LEAST:
         yield _top(claim.source, seen.step.bound)
     best = mixer.unmix(mixer.mix(asked))
-    if abs(applied.linear.x) < min(abs(best.linear.x), speed) - _LEAST:
+    if abs(made.linear.x) < min(abs(best.linear.x), speed) - _LEAST:
         yield f"speed changes by {limits.acceleration:g} m/s^2"
     if limits.pulse_duty < 1:
         yield f"the throttle is obeyed {limits.pulse_duty:.0%} of the time"
-    if abs(_bend(applied)) < abs(_bend(asked)) - _LEAST:
+    if mixer.steers and not curvature.rolls(asked.linear.x):
+        yield "a car that stands only turns its front wheels"
+    elif curvature.rolls(made.linear.x) and abs(_bend(made)) < abs(_bend(asked)) - _LEAST:
         yield "it turns no tighter"
 
 

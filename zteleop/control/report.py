@@ -2,7 +2,7 @@
 
 from zteleop.control.drive import Drive, Step
 from zteleop.control.evidence import Evidence
-from zteleop.control.explain import slowed, wanted
+from zteleop.control.explain import applied, slowed, wanted
 from zteleop.control.mux import Claim
 from zteleop.control.proof import called
 from zteleop.control.refusals import Turned
@@ -36,7 +36,7 @@ def status(drive: Drive, step: Step, chip: Evidence, now: float, unkept: str = "
         source=claim.source if claim else "",
         operator=f"{claim.sender:x}" if claim else "",
         wanted=wanted(seen),
-        applied=drive.settings.mixer.unmix(step.wheels),
+        applied=applied(seen),
         pulses=drive.calibration.pulses(chip.pulse_us),
         seq=claim.seq if claim else 0,
         written=chip.written,
@@ -53,12 +53,14 @@ def status(drive: Drive, step: Step, chip: Evidence, now: float, unkept: str = "
 
 
 def overridden(seen: Snapshot, claim: Claim) -> str | None:
-    """Return why a claim that counts does not drive; None where it does, or nobody does."""
+    """Return why a claim that counts does not drive; None where it does, or is about to, or nobody does."""
     driver = seen.step.claim
     if driver is None or driver.sender == claim.sender:
         return None
-    sources = seen.settings.known_sources
-    ranks = f"priority {sources[driver.source].priority} over {sources[claim.source].priority}"
+    higher, own = (seen.settings.known_sources[one.source].priority for one in (driver, claim))
+    if own > higher:
+        return None  # it came after the step, and drives with the next
+    ranks = f"priority {higher} over {own}"
     who = called(driver.source, f"{driver.sender:x}")
     return f"{who} drives, with {ranks}; this one is obeyed when that one is done"
 

@@ -67,7 +67,7 @@ def reasons(d: Dashboard, unicode: bool) -> list[tuple[str, str]]:
         return [(f"{was}, {printable(status.why, unicode)}", "yellow")]
     # The robot's words are for every reader; here a key does it.
     why = (printable(status.why.replace(RELEASE, "r releases it"), unicode), "")
-    if d.asks and d.seen.refused:
+    if d.asks and d.seen.refused and not d.obeyed:
         words = in_keys(d, d.seen.refused.removesuffix(f" ({status.why})"))
         refused = (f"you are not obeyed: {printable(words, unicode)}", "yellow")
         return [why, refused] if status.state in HOLDS else [refused]

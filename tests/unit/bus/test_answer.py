@@ -7,22 +7,36 @@ from zteleop.bus.heard import Heard
 from zteleop.bus.log import NodeLog
 from zteleop.bus.subscription import Subscription
 from zteleop.control.gate import Refusal
-from zteleop.messages import Beat, Message, Refusals, Refused, Vehicle
+from zteleop.control.mixer import Differential
+from zteleop.control.report import to_vehicle
+from zteleop.control.servo import Servo
+from zteleop.control.settings import DriveSettings
+from zteleop.messages import (
+    Beat,
+    Header,
+    Message,
+    Refusals,
+    Refused,
+    Twist,
+    TwistStamped,
+    Vector3,
+    Vehicle,
+)
 from zteleop.testing import Clock
 
 WORDS = "not now"
+TANK = DriveSettings(mixer=Differential(), servos={"left": Servo(channel=0), "right": Servo(channel=1)})
 
 
 class Sender:
     """A publisher of cmd_vel, what it hears of its robot, and what its log says."""
 
-    def __init__(self, clock: Clock) -> None:
+    def __init__(self, clock: Clock, is_program: bool = True) -> None:
         self.clock, self.beats, self.refusals = clock, Ring(), Ring()
         self.heard = Heard(inbox(self.beats, Beat), inbox(Ring(), Vehicle), inbox(self.refusals, Refusals))
         self.lines: list[str] = []
-        self.answer = Answer(
-            "ff", "cmd_vel", "archangel", self.heard, NodeLog("nose", lambda log: None, self.lines.append)
-        )
+        log = NodeLog("nose", lambda log: None, self.lines.append)
+        self.answer = Answer("ff", "cmd_vel", "archangel", self.heard, log, is_program=is_program)
 
     def refuse(self, why: str = WORDS, sender: str = "ff", rest: str = "") -> None:
         self.refusals.samples.append(sample(Refusals([Refused(sender, "program", why, 0.6)], rest, 0)))
@@ -137,13 +151,40 @@ def test_a_robot_that_was_never_heard_is_missed(sender: Sender) -> None:
 
 
 def test_who_asks_for_what_no_wheels_do_is_told(sender: Sender) -> None:
-    sender.answer.tell_in_vain()
-    sender.answer.tell_in_vain()
+    sideways = Twist(Vector3(0.0, 0.5, 0.0), Vector3.zero())
+    sender.answer.advise(sideways)
+    sender.answer.advise(sideways)
     (line,) = sender.news
     assert line == (
         "nose: warning: what is said on cmd_vel moves nothing: "
         "a robot on wheels obeys linear.x and angular.z, and both are 0"
     )
+
+
+@pytest.mark.parametrize(("is_program", "told"), [(True, 1), (False, 0)])
+def test_a_program_that_turns_a_car_on_the_spot_is_told_once(
+    clock: Clock, is_program: bool, told: int
+) -> None:
+    sender = Sender(clock, is_program)
+    for twist in (Twist.planar(0.0, 0.5), Twist.planar(0.5, 0.5), Twist.planar(0.0, -0.5)):
+        sender.answer.advise(twist)  # while nobody knows what it drives
+    assert sender.news == []
+    sender.heard.vehicle = to_vehicle(DriveSettings(), 4.8)
+    sender.answer.advise(Twist.planar(0.5, 0.5))
+    assert sender.news == []
+    sender.answer.advise(Twist.planar(0.0, 0.5))
+    sender.answer.advise(TwistStamped(Header.zero(), Twist.planar(0.0, -0.5)))
+    expected = (
+        "nose: warning: what is said on cmd_vel turns front wheels and moves nothing: "
+        "a car turns only while it drives; give linear.x as well as angular.z"
+    )
+    assert sender.news == [expected] * told
+
+
+def test_a_tank_turns_on_the_spot(sender: Sender) -> None:
+    sender.heard.vehicle = to_vehicle(TANK, 4.8)
+    sender.answer.advise(Twist.planar(0.0, 0.5))
+    assert sender.news == []
 
 
 def test_who_was_told_at_the_start_is_not_told_again(sender: Sender) -> None:

@@ -81,6 +81,17 @@ def test_who_does_not_look_around_knocks_nowhere(settings: dict[str, Any]) -> No
     assert configure(**settings)("connect/endpoints") == []
 
 
+def test_in_no_network_it_looks_around_on_the_machine_and_is_found_there(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(module.networks, "is_in_none", lambda: True)
+    get = configure()
+    assert get("scouting/multicast/interface") == "lo"
+    assert "tcp/127.0.0.1:0" in get("listen/endpoints")
+    monkeypatch.setattr(module.networks, "is_in_none", lambda: False)
+    assert configure()("scouting/multicast/interface") is None
+
+
 def test_a_client_fails_at_once_so_that_our_own_loop_retries() -> None:
     get = configure(mode="client", connect=["tcp/pi.local:7447"])
     assert get("connect/exit_on_failure") is True

@@ -131,6 +131,7 @@ def test_multicast_that_does_not_work_hinders(
         return found if isinstance(found, bool) else next(found)
 
     monkeypatch.setattr(trial, "hears_itself", hears)
+    monkeypatch.setattr(_checkup.networks, "is_in_none", lambda: False)
     found = CHECKS["multicast"](CAR)
     assert found.good is good
     assert words in found.words
@@ -138,6 +139,12 @@ def test_multicast_that_does_not_work_hinders(
 
 def test_multicast_that_is_switched_off_is_worth_knowing() -> None:
     assert CHECKS["multicast"](Patient(parse(b"[bus]\nmulticast = false\n"), "", True)).good is None
+
+
+def test_a_machine_in_no_network_is_worth_knowing(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(_checkup.networks, "is_in_none", lambda: True)
+    words = "this machine is in no network; its own programs and robots find each other"
+    assert CHECKS["multicast"](CAR) == Finding(None, words)
 
 
 def test_a_group_that_nobody_speaks_to_says_nothing(monkeypatch: pytest.MonkeyPatch) -> None:

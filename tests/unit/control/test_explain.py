@@ -67,6 +67,14 @@ def test_what_still_accelerates_names_the_acceleration(command: Twist | Pwm) -> 
     )
 
 
+@pytest.mark.parametrize("command", [Twist.planar(0.0, 0.5), Pwm(300, 370)])
+def test_a_car_that_stands_does_not_turn_whatever_its_front_wheels_do(command: Twist | Pwm) -> None:
+    robot = Robot()
+    robot.hold(command, 0.3)
+    said = "makes it +0.00 m/s +0.00 rad/s: a car that stands only turns its front wheels"
+    assert says(robot)["limiter"] == (said if isinstance(command, Twist) else "passes it on as asked")
+
+
 def test_a_source_that_may_not_drive_so_fast_names_its_cap() -> None:
     robot = Robot(DriveSettings(sources={"nav": Source(10, max_speed=0.4)}))
     robot.hold(Twist.planar(2.0), 0.5, source="nav")

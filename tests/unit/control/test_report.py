@@ -4,9 +4,10 @@ from unit.control.robot import FORWARD, TICK_US, Robot
 from zteleop.control.drive import Step
 from zteleop.control.limiter import Limits
 from zteleop.control.mixer import Differential
-from zteleop.control.report import status, to_vehicle
+from zteleop.control.report import overridden, status, to_vehicle
 from zteleop.control.servo import Servo
 from zteleop.control.settings import DriveSettings
+from zteleop.control.snapshot import snapshot
 from zteleop.messages import DriveStatus, Pwm, Twist
 
 
@@ -37,6 +38,31 @@ def test_ticks_are_told_as_the_twist_they_ask_for() -> None:
     robot = Robot()
     said = told(robot, robot.hold(Pwm(375, 500), 1.2))
     assert said.wanted.linear.x == pytest.approx(3.0, abs=0.05)
+
+
+@pytest.mark.parametrize("command", [Twist.planar(0.0, 0.5), Pwm(300, 370)])
+def test_a_car_that_stands_is_told_to_stand_wherever_its_front_wheels_point(command: Twist | Pwm) -> None:
+    robot = Robot()
+    said = told(robot, robot.hold(command, 0.3))
+    assert abs(next(pulse.fraction for pulse in said.pulses if pulse.name == "steering")) > 0.1
+    assert said.applied == Twist.planar()
+    assert said.wanted == (command if isinstance(command, Twist) else Twist.planar())
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "waits"), [("program", "keyboard", False), ("keyboard", "program", True)]
+)
+def test_who_came_after_the_last_step_waits_only_where_the_other_goes_first(
+    first: str, second: str, waits: bool
+) -> None:
+    robot = Robot()
+    step = robot.hold(FORWARD, 0.2, source=first)
+    robot.say(FORWARD, "b", second)
+    seen = snapshot(robot.drive, step, robot.now)
+    told = {claim.source: overridden(seen, claim) for claim in seen.claims}
+    assert told.pop(first) is None
+    words = "keyboard 0001 drives, with priority 90 over 50; this one is obeyed when that one is done"
+    assert told == {second: words if waits else None}
 
 
 def test_status_tells_how_fast_it_may_be_and_why_no_faster() -> None:

@@ -87,6 +87,11 @@ def test_in_steps_where_nothing_is_held_the_key_is_named_that_lets_go(car):
     assert "let go, and begin anew" in told
 
 
+def test_nobody_is_told_of_a_refusal_whom_the_robot_obeys_by_now(car):
+    board = dashboard("step", car, command=Pwm(405, 370), status=status(), refused=HELD, ours=True)
+    assert "obeyed" not in " ".join(texts(heading(board, 80, True)))
+
+
 def test_nobody_is_told_of_a_refusal_who_asks_for_nothing(car):
     assert "obeyed" not in " ".join(
         texts(heading(dashboard("step", car, status=status(), refused=HELD), 80, True))
