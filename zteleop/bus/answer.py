@@ -58,7 +58,7 @@ class Answer:
         self._moved = NEVER
         self._slow = 0
         """How often in a row it was moved on too late."""
-        self._advises_turns = is_program
+        self._advises_turns = is_program  # who holds an input steers before driving off
 
     @property
     def refused(self) -> str:
@@ -76,10 +76,11 @@ class Answer:
             f"until its actuator is on (zteleop node list shows who is there){self._hint}"
         )
 
-    def advise(self, message: Message) -> None:
+    def advise(self, message: Message, moving: bool) -> None:
         """Say of a command that no robot on wheels does it, or, to a program and once, that no car does."""
-        if asks_in_vain(message):
-            self._log.warn(f"what is said on {self._topic} moves nothing: {IN_VAIN}")
+        if not moving:
+            if asks_in_vain(message):
+                self._log.warn(f"what is said on {self._topic} moves nothing: {IN_VAIN}")
         elif self._advises_turns and steers_only(message, self._heard.vehicle):
             self._advises_turns = False
             self._log.warn(

@@ -120,6 +120,6 @@ class Publisher(Generic[M]):
         moving = moves(message, self._heard.vehicle)
         if self._answer:
             self._answer.heed(moving)
-            self._answer.advise(message)
+            self._answer.advise(message, moving)
         proof = self._prover.prove(self._heard.beat, moving, clock.now())
         return codec.pack_proof(proof) if proof else None

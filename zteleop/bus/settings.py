@@ -8,6 +8,8 @@ PORT = 7447
 IF_FREE = "#exit_on_failure=false"
 """After an endpoint to listen on: when another has it, go on without."""
 ROBOT_ENDPOINT = f"tcp/[::]:{PORT}{IF_FREE}"
+ANY_PORT = "tcp/[::]:0"
+"""where everybody listens who is told of no other place"""
 BEHIND = "door/"
 """Before the place of a robot's door: an endpoint of the robot's own processes."""
 SAME_MACHINE = f"tcp/127.0.0.1:{PORT}"

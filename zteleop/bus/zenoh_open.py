@@ -8,7 +8,7 @@ import time
 import zenoh
 
 from zteleop.bus import linger, networks
-from zteleop.bus.settings import ENDPOINT, PORT, SAME_MACHINE, BusSettings
+from zteleop.bus.settings import ANY_PORT, ENDPOINT, PORT, SAME_MACHINE, BusSettings
 from zteleop.errors import BusError, ConfigError
 
 _ENDPOINT = re.compile(ENDPOINT)
@@ -135,9 +135,10 @@ def _configure(
             values[f"transport/link/tx/queue/congestion_control/drop/{name}"] = _SAYS_FOR_US
     if settings.listen:
         values["listen/endpoints"] = settings.listen
-    elif settings.mode == "peer" and networks.is_in_none():
-        values["listen/endpoints"] = ["tcp/[::]:0", "tcp/127.0.0.1:0"]  # of the first, nobody is told
-    if settings.multicast and networks.is_in_none():
+    if networks.is_in_none():
+        listen = settings.listen or ([ANY_PORT] if settings.mode == "peer" else [])
+        if ANY_PORT in listen:  # others are told of its addresses in networks alone
+            values["listen/endpoints"] = [*listen, "tcp/127.0.0.1:0"]
         values["scouting/multicast/interface"] = networks.LOOPBACK
     config = zenoh.Config()
     for key, value in values.items():

@@ -160,9 +160,10 @@ def _bounds(seen: Snapshot, claim: Claim, asked: Twist, made: Twist) -> Iterator
         yield f"speed changes by {limits.acceleration:g} m/s^2"
     if limits.pulse_duty < 1:
         yield f"the throttle is obeyed {limits.pulse_duty:.0%} of the time"
-    if mixer.steers and not curvature.rolls(asked.linear.x):
-        yield "a car that stands only turns its front wheels"
-    elif curvature.rolls(made.linear.x) and abs(_bend(made)) < abs(_bend(asked)) - _LEAST:
+    if mixer.steers and not curvature.rolls(made.linear.x):
+        if not curvature.rolls(asked.linear.x):
+            yield "a car that stands only turns its front wheels"
+    elif abs(_bend(made)) < abs(_bend(asked)) - _LEAST:
         yield "it turns no tighter"
 
 

@@ -13,7 +13,7 @@ from zteleop.bus import clock, presence
 from zteleop.bus.lane.ear import Ear
 from zteleop.bus.node import Node
 from zteleop.bus.session import Session, open_session
-from zteleop.bus.settings import BEHIND, ROBOT_ENDPOINT, BusSettings
+from zteleop.bus.settings import ANY_PORT, BEHIND, ROBOT_ENDPOINT, BusSettings
 from zteleop.config import Config
 from zteleop.drivers import PulseDriver, output_enable
 from zteleop.drivers.output_enable import OutputEnable
@@ -127,7 +127,7 @@ def _reachable(bus: BusSettings) -> BusSettings:
         return bus
     listen = bus.listen
     if bus.mode == "peer" and bus.multicast and not listen:
-        listen = [ROBOT_ENDPOINT, "tcp/[::]:0"]
+        listen = [ROBOT_ENDPOINT, ANY_PORT]
     return msgspec.structs.replace(bus, listen=listen, largest=LARGEST)
 
 

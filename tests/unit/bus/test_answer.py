@@ -152,8 +152,8 @@ def test_a_robot_that_was_never_heard_is_missed(sender: Sender) -> None:
 
 def test_who_asks_for_what_no_wheels_do_is_told(sender: Sender) -> None:
     sideways = Twist(Vector3(0.0, 0.5, 0.0), Vector3.zero())
-    sender.answer.advise(sideways)
-    sender.answer.advise(sideways)
+    sender.answer.advise(sideways, False)
+    sender.answer.advise(sideways, False)
     (line,) = sender.news
     assert line == (
         "nose: warning: what is said on cmd_vel moves nothing: "
@@ -167,13 +167,14 @@ def test_a_program_that_turns_a_car_on_the_spot_is_told_once(
 ) -> None:
     sender = Sender(clock, is_program)
     for twist in (Twist.planar(0.0, 0.5), Twist.planar(0.5, 0.5), Twist.planar(0.0, -0.5)):
-        sender.answer.advise(twist)  # while nobody knows what it drives
+        sender.answer.advise(twist, True)  # while nobody knows what it drives
     assert sender.news == []
     sender.heard.vehicle = to_vehicle(DriveSettings(), 4.8)
-    sender.answer.advise(Twist.planar(0.5, 0.5))
+    sender.answer.advise(Twist.planar(0.5, 0.5), True)
     assert sender.news == []
-    sender.answer.advise(Twist.planar(0.0, 0.5))
-    sender.answer.advise(TwistStamped(Header.zero(), Twist.planar(0.0, -0.5)))
+    sender.answer.advise(Twist.planar(0.0, 0.5), True)
+    clock.pass_by(60.0)  # when the log would tell it again
+    sender.answer.advise(TwistStamped(Header.zero(), Twist.planar(0.0, -0.5)), True)
     expected = (
         "nose: warning: what is said on cmd_vel turns front wheels and moves nothing: "
         "a car turns only while it drives; give linear.x as well as angular.z"
@@ -183,7 +184,7 @@ def test_a_program_that_turns_a_car_on_the_spot_is_told_once(
 
 def test_a_tank_turns_on_the_spot(sender: Sender) -> None:
     sender.heard.vehicle = to_vehicle(TANK, 4.8)
-    sender.answer.advise(Twist.planar(0.0, 0.5))
+    sender.answer.advise(Twist.planar(0.0, 0.5), True)
     assert sender.news == []
 
 

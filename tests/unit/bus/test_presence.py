@@ -7,6 +7,7 @@ from unit.bus.fakes import Session
 from zteleop.bus import presence
 from zteleop.bus.names import Name, resolve
 from zteleop.bus.presence import Endpoint
+from zteleop.bus.session import Sample
 from zteleop.messages import Message, Pwm, Twist, TwistStamped
 
 
@@ -41,6 +42,17 @@ def test_no_token_is_a_wildcard() -> None:
 def test_a_process_is_its_host_and_number(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(presence.socket, "gethostname", lambda: "pi.local/é*" + "x" * 100)
     assert presence.process() == f"pi-local---{'x' * 21}-{os.getpid()}"
+
+
+def test_robots_come_and_go() -> None:
+    session = Session([])
+    robots = presence.Robots(session)
+    token = "robot/{}/live/node/actuator/{}".format
+    came = [token("zoe", "pi-1"), token("abe", "pi-2"), token("abe", "pi-3"), token("no robot", "pi-4")]
+    session.comings.samples += [Sample(key, b"", "") for key in came]
+    assert robots.there() == ["abe", "zoe"]
+    session.comings.samples += [Sample(key, b"", "", is_put=False) for key in (came[0], came[1], "robot/x")]
+    assert robots.there() == ["abe"]
 
 
 def test_endpoints_are_told_once_and_in_order() -> None:

@@ -11,7 +11,7 @@ import pytest
 import zenoh
 
 from zteleop.bus import zenoh_open as module
-from zteleop.bus.settings import IF_FREE, ROBOT_ENDPOINT, SAME_MACHINE, BusSettings
+from zteleop.bus.settings import ANY_PORT, IF_FREE, ROBOT_ENDPOINT, SAME_MACHINE, BusSettings
 from zteleop.bus.zenoh_open import open_zenoh
 from zteleop.errors import BusError, ConfigError
 from zteleop.testing import Clock
@@ -87,7 +87,10 @@ def test_in_no_network_it_looks_around_on_the_machine_and_is_found_there(
     monkeypatch.setattr(module.networks, "is_in_none", lambda: True)
     get = configure()
     assert get("scouting/multicast/interface") == "lo"
-    assert "tcp/127.0.0.1:0" in get("listen/endpoints")
+    assert get("listen/endpoints") == ["tcp/[::]:0", "tcp/127.0.0.1:0"]
+    robot = [ROBOT_ENDPOINT, ANY_PORT]  # a second one on this machine has only the latter
+    assert configure(listen=robot)("listen/endpoints") == [*robot, "tcp/127.0.0.1:0"]
+    assert configure(listen=["tcp/127.0.0.1:5"])("listen/endpoints") == ["tcp/127.0.0.1:5"]
     monkeypatch.setattr(module.networks, "is_in_none", lambda: False)
     assert configure()("scouting/multicast/interface") is None
 

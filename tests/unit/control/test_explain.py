@@ -75,6 +75,13 @@ def test_a_car_that_stands_does_not_turn_whatever_its_front_wheels_do(command: T
     assert says(robot)["limiter"] == (said if isinstance(command, Twist) else "passes it on as asked")
 
 
+def test_a_car_that_slows_down_to_turn_on_the_spot_is_not_said_to_stand() -> None:
+    robot = Robot()
+    robot.hold(Twist.planar(2.0), 1.5)
+    robot.hold(Twist.planar(0.0, 0.5), 0.1)
+    assert "stands" not in says(robot)["limiter"]
+
+
 def test_a_source_that_may_not_drive_so_fast_names_its_cap() -> None:
     robot = Robot(DriveSettings(sources={"nav": Source(10, max_speed=0.4)}))
     robot.hold(Twist.planar(2.0), 0.5, source="nav")
