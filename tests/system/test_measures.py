@@ -191,7 +191,11 @@ def test_pub_may_wait_for_several_or_for_nobody(rig: Rig) -> None:
     assert "publishing #1" in ask(rig, "pub nowhere String --once -w 0")
     waits = rig.join("pub", "wide", "String", "--once", "-w", "2")
     waits.says("zteleop pub: waits for 2 who hear bench/wide: nobody hears it")
-    ears = [rig.join("echo", "wide", "--once") for _ in range(2)]
+    ears = [rig.join("echo", "wide", "--once")]
+    more = rig.join("pub", "wide", "String", "--once", "-w", "3")
+    more.says("zteleop pub: waits for 3 who hear bench/wide: 1 of 3 so far, echo on ")
+    more.signal(signal.SIGINT)
+    ears.append(rig.join("echo", "wide", "--once"))
     assert [ear.ends() for ear in ears] == [0, 0]
     assert waits.ends() == 0
 

@@ -1,10 +1,12 @@
 """How long a command lasts that nobody repeats, and how late a handler may make another."""
 
+import re
 import signal
+import time
 from collections.abc import Iterator
 
 import pytest
-from rig import NEUTRAL, Rig, repeating, until
+from rig import NEUTRAL, Process, Rig, every, repeating, until
 from verdict import Deadline, excusable
 
 from zteleop.bus import clock
@@ -102,6 +104,34 @@ def test_a_pub_that_is_ended_lets_go_before_its_silence_would(rig: Rig, number: 
     deadline = Deadline(rig)
     pub.signal(number)
     deadline.met(lambda: rig.ticks == NEUTRAL, "neutral", 0.1)
+
+
+def let_stand_still(rig: Rig, seconds: float) -> Process:
+    """Drive by `pub`, and let it stand still for a while, as Ctrl-Z and fg do."""
+    program = rig.join("pub", "cmd_vel", "Twist", "{linear: {x: 0.3}}", "-r", "10")
+    until(lambda: rig.ticks != NEUTRAL, "motion")
+    program.signal(signal.SIGSTOP)
+    until(lambda: rig.ticks == NEUTRAL, "neutral")
+    time.sleep(seconds - SILENCE)
+    program.signal(signal.SIGCONT)
+    return program
+
+
+def test_a_pub_that_stood_still_for_a_moment_drives_on(rig: Rig) -> None:
+    program = let_stand_still(rig, 1.0)
+    with excusable(0.1, rig):
+        until(lambda: rig.ticks != NEUTRAL, "motion")
+        assert not re.search("refused|comes to|is not heard|is said every", program.text)
+
+
+def test_a_pub_that_stood_still_for_longer_is_refused_until_it_is_started_anew(rig: Rig) -> None:
+    program = let_stand_still(rig, 4.0)
+    program.says(
+        "is refused by robot bench, as this process stood still (suspended, or in a long handler): it was"
+    )
+    for _ in every(0.005, 300):
+        assert rig.ticks == NEUTRAL
+    assert not re.search("comes to|is not heard|is said every", program.text)
 
 
 def test_a_timer_keeps_its_rate(rig: Rig) -> None:

@@ -96,7 +96,8 @@ class Answer:
 
     def _notice_pace(self, moving: bool) -> None:
         """Tell whoever moves the robot again and again, but too seldom, that it rests in between."""
-        gap, self._moved = clock.now() - self._moved, clock.now() if moving else NEVER
+        now = clock.now()
+        gap, self._moved = now - max(self._moved, self._heard.awake_since), now if moving else NEVER
         self._slow = self._slow + 1 if OBEYED_FOR < gap < PAUSE else 0
         if self._slow == TOO_SLOW:
             self._log.warn(
@@ -106,7 +107,7 @@ class Answer:
 
     def _notice_robot(self, moving: bool) -> None:
         # Since it was last listened for: in a long handler nobody does.
-        unheard = self._heard.listened - max(self._heard.at, self._since) > UNHEARD
+        unheard = self._heard.listened - max(self._heard.at, self._since, self._heard.awake_since) > UNHEARD
         if unheard and moving and not self._unheard:
             self.miss()
         elif self._unheard and not unheard:
@@ -132,6 +133,8 @@ class Answer:
         before, self._words = self._words, words
         if words and words != before:
             todo = f"; {advice}" if advice else ""
-            self._log.warn(f"{self._topic} is refused by robot {self._robot}: {words}{todo}")
+            woke = clock.now() - self._heard.awake_since <= LASTS
+            why = ", as this process stood still (suspended, or in a long handler)" if woke else ""
+            self._log.warn(f"{self._topic} is refused by robot {self._robot}{why}: {words}{todo}")
         elif before and not words:
             self._log.info(f"what is said on {self._topic} is no longer refused by robot {self._robot}")

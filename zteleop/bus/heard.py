@@ -31,6 +31,8 @@ class Heard:
         """When the beat was heard, by the bus clock."""
         self.listened = NEVER
         """When it was last listened for."""
+        self.awake_since = NEVER
+        """When this process last woke from standing still; before that it heard, and said, nothing."""
         self.refusals: Refusals | None = None
         """Whom the robot last said it refuses."""
 

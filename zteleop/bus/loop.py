@@ -11,10 +11,13 @@ from contextlib import contextmanager
 from msgspec import Struct
 
 from zteleop.bus import clock
+from zteleop.control.proof import NEVER
 
 Action = Callable[[], object]
 FAR = float("inf")
 LONGEST_WAIT = 60.0
+OVERSLEPT = 0.5
+"""s after its time at which a loop wakes, or ends an action, that stood still: suspended, or in a sleep"""
 RING = b"!"
 """a byte that is no signal's number"""
 
@@ -50,6 +53,9 @@ class Loop:
         os.set_blocking(self._bell, False)
         self._rung = threading.Lock()
         self._running = True
+        self._woke = clock.now()
+        self.awake_since = NEVER
+        """When it last woke from standing still, by the bus clock."""
 
     def close(self) -> None:
         if self._bell < 0:
@@ -101,6 +107,7 @@ class Loop:
 
     def run(self, until: float | None = None) -> None:
         """Run actions until `stop`, or until a time of the bus clock; what is ready is done even then."""
+        self._woke = clock.now()  # before this run whoever calls it may have paused on purpose
         with self._woken_by_signals():
             try:
                 while self._running:
@@ -130,8 +137,15 @@ class Loop:
         """Wait for the next thing to do, and do what is due."""
         due = min((timer.due for timer in self._timers), default=FAR)
         due = min(due, FAR if until is None else until)
-        timeout = max(0.0, min(due - clock.now(), LONGEST_WAIT))
-        readable = select.select([self._ear, *self._files], [], [], 0 if self._ready else timeout)[0]
+        slept = clock.now()
+        timeout = 0.0 if self._ready else max(0.0, min(due - slept, LONGEST_WAIT))
+        readable = select.select([self._ear, *self._files], [], [], timeout)[0]
+        woke = clock.now()
+        if woke - slept - timeout > OVERSLEPT:
+            self.awake_since = woke
+        elif slept - self._woke > OVERSLEPT:
+            self.awake_since = slept
+        self._woke = woke
         if self._ear in readable:
             self._answer()
         for _ in range(len(self._ready)):

@@ -111,6 +111,7 @@ class Membership:
     def listen(self) -> None:
         """Take in what the robots said."""
         for heard in self._heard.values():
+            heard.awake_since = self.loop.awake_since
             heard.listen()
 
     def listen_now(self) -> None:

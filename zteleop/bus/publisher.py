@@ -121,5 +121,5 @@ class Publisher(Generic[M]):
         if self._answer:
             self._answer.heed(moving)
             self._answer.advise(message, moving)
-        proof = self._prover.prove(self._heard.beat, moving, clock.now())
+        proof = self._prover.prove(self._heard.beat, moving, clock.now(), self._heard.awake_since)
         return codec.pack_proof(proof) if proof else None

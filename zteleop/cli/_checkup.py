@@ -4,7 +4,6 @@ import errno
 import os
 import platform
 import re
-import shutil
 import socket
 import sys
 from collections.abc import Callable
@@ -35,7 +34,8 @@ class Patient(NamedTuple):
     settings: Config
     wrong: str
     """what is wrong with the config file, if anything"""
-    at_terminal: bool
+    terminal: int | None
+    """the file that is one"""
 
 
 class Finding(NamedTuple):
@@ -99,9 +99,9 @@ def privileges(patient: Patient) -> Finding:
 
 
 def terminal(patient: Patient) -> Finding:
-    if not patient.at_terminal:
+    if patient.terminal is None:
         return Finding(None, "this is none; zteleop keyboard needs one")
-    columns, rows = shutil.get_terminal_size()
+    columns, rows = os.get_terminal_size(patient.terminal)
     kind = os.environ.get("TERM", "")
     if kind in ("", "dumb"):
         return Finding(

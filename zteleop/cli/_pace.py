@@ -1,5 +1,7 @@
 """Whether something that is to be done so many times a second is."""
 
+from zteleop.control.proof import NEVER
+
 TELL_AFTER = 2.0
 """s over which it is counted"""
 ENOUGH = 0.9
@@ -11,14 +13,19 @@ class Pace:
 
     def __init__(self, rate: float) -> None:
         self._rate = rate
-        self._began: float | None = None
+        self._began = NEVER
         self._done = 0
+        self._last = NEVER
         self._told = False
 
-    def count(self, now: float) -> str:
-        """Take in that it is done now; return what is to be told, which is mostly nothing."""
-        if self._began is None:
-            self._began = now
+    def count(self, now: float, awake_since: float = NEVER) -> str:
+        """Take in that it is done now; return what is to be told, which is mostly nothing.
+
+        Time in which its process stood still, up to `awake_since`, is not slowness.
+        """
+        if self._last <= awake_since:
+            self._began, self._done = now, 0
+        self._last = now
         done, lasted = self._done, now - self._began
         self._done += 1
         if self._told or lasted < TELL_AFTER or done >= ENOUGH * self._rate * lasted:

@@ -22,5 +22,18 @@ def run_verb(verb: str, text: str, arguments: list[str]) -> int:
     )
     parser.add_argument("--debug", action="store_true", help="show the traceback of an error")
     module.add_arguments(parser)
-    options = parser.parse_args(arguments)
+    options, unknown = parser.parse_known_args(arguments)
+    if unknown:
+        parser.error(_unknown(unknown, parser))
     return in_words(f"zteleop {verb}", lambda: module.run(options), debug=options.debug)
+
+
+def _unknown(words: list[str], parser: argparse.ArgumentParser) -> str:
+    """Return what is wrong with words that a verb does not take, and which of its options was meant."""
+    from difflib import get_close_matches
+
+    typed = next((word.partition("=")[0] for word in words if word.startswith("--")), "")
+    known = [option for option in parser.format_help().replace(",", " ").split() if option.startswith("--")]
+    if typed and (near := get_close_matches(typed, sorted(set(known)), 1)):
+        return f"no option {typed}; did you mean {near[0]}?"
+    return f"unrecognized arguments: {' '.join(words)}"

@@ -1,10 +1,12 @@
 import argparse
-import sys
+from contextlib import suppress
 
 from zteleop.bus.escape import printable
 from zteleop.cli import _options
 from zteleop.cli._checkup import CHECKS, Patient
 from zteleop.cli._salvage import salvage
+from zteleop.errors import DeviceError
+from zteleop.terminal.terminal import find_terminal
 
 EXAMPLES = ("zteleop doctor", "zteleop doctor --robot archangel")
 MARKS = {True: "good", False: "WRONG", None: "-"}
@@ -17,7 +19,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Print a line for each check; return 1 when something hinders."""
     settings, wrong = salvage(arguments.config)
-    patient = Patient(_options.with_typed(arguments, settings), wrong, sys.stdin.isatty())
+    terminal = None
+    with suppress(DeviceError):
+        terminal = find_terminal()
+    patient = Patient(_options.with_typed(arguments, settings), wrong, terminal)
     hinders = 0
     for name, check in CHECKS.items():
         good, words = check(patient)

@@ -12,6 +12,7 @@ from zteleop.bus.escape import printable
 from zteleop.bus.loop import FAR
 from zteleop.bus.names import Name, resolve
 from zteleop.bus.node import Node
+from zteleop.bus.presence import Endpoint
 from zteleop.bus.publisher import Publisher
 from zteleop.bus.topics import topic_of
 from zteleop.cli import _company, _options
@@ -138,7 +139,7 @@ def _say(
             publisher.let_go()
         publisher.publish(message)
         print(f"publishing #{said}: {message}\n", flush=True)
-        if words := pace.count(clock.now()):
+        if words := pace.count(clock.now(), node.membership.loop.awake_since):
             print(f"zteleop pub: {words}", file=sys.stderr)
         if outcome:
             outcome.note(message)
@@ -228,8 +229,10 @@ def _await_hearer(node: Node, publisher: Publisher[M], name: Name, wanted: int, 
     start, told = clock.now(), False
     while not (heard := _hears(node, publisher, name, wanted)) and (waited := clock.now() - start) < patience:
         if waited > TELL_AFTER and not told:
+            there = len(_hearers(node, name))
             whom = "who hears" if wanted == 1 else f"{wanted} who hear"
-            print(f"zteleop pub: waits for {whom} {name}: {_who_hears(node, name)}", file=sys.stderr)
+            so_far = f"{there} of {wanted} so far, " if 0 < there < wanted else ""
+            print(f"zteleop pub: waits for {whom} {name}: {so_far}{_who_hears(node, name)}", file=sys.stderr)
             told = True
         node.spin(SETTLE)
     node.spin(SETTLE)
@@ -240,11 +243,15 @@ def _await_hearer(node: Node, publisher: Publisher[M], name: Name, wanted: int, 
 
 def _hears(node: Node, publisher: Publisher[M], name: Name, wanted: int = 1) -> bool:
     """Say whether so many hear; a robot's black box hears whatever is said, and is nobody it is said to."""
-    session = node.membership.session
-    known = len(_company.members(name, "sub", presence.endpoints(session)))
+    known = len(_hearers(node, name))
     if wanted != 1:
         return known >= wanted
-    return publisher.matched and (bool(known) or not presence.holders(session, name.robot, "blackbox"))
+    recorded = presence.holders(node.membership.session, name.robot, "blackbox")
+    return publisher.matched and (bool(known) or not recorded)
+
+
+def _hearers(node: Node, name: Name) -> list[Endpoint]:
+    return _company.members(name, "sub", presence.endpoints(node.membership.session))
 
 
 def _who_hears(node: Node, name: Name) -> str:

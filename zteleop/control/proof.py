@@ -68,15 +68,16 @@ class Prover:
             self._hear(beat)
             self._acted = beat.time
 
-    def prove(self, beat: Beat | None, moving: bool, now: float) -> Proof | None:
+    def prove(self, beat: Beat | None, moving: bool, now: float, awake_since: float = NEVER) -> Proof | None:
         """Return the proof of a command sent now, by the sender's clock; None before the first beat.
 
         A claim that was moving before the robot started, or before a release, never has a beginning:
         it must be let go, or fall silent for `LAPSE`, first. However slow its messages are, a stream
-        does not begin anew by itself.
+        does not begin anew by itself. Nor does one whose process stood still: it has paused since it woke.
         """
         if beat:
             self._hear(beat)
+        self._then = max(self._then, awake_since)
         if moving and (not self._moving or self._has_paused(beat, now)):
             self._began = self._acted
         self._moving, self._then = moving, now

@@ -17,6 +17,8 @@ class FakeLoop:
         self.watched: dict[int, Action] = {}
         """What is done when a file can be read."""
         self.stopped = False
+        self.awake_since = float("-inf")
+        """When it last woke from standing still."""
 
     def every(self, period: float, action: Action) -> Timer:
         """Run an action every `period` seconds, the first time at once."""

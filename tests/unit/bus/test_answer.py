@@ -25,6 +25,7 @@ from zteleop.messages import (
 from zteleop.testing import Clock
 
 WORDS = "not now"
+HOW = "suspended, or in a long handler"
 TANK = DriveSettings(mixer=Differential(), servos={"left": Servo(channel=0), "right": Servo(channel=1)})
 
 
@@ -228,6 +229,25 @@ def test_a_program_that_moves_the_robot_too_seldom_is_told_once(sender: Sender) 
     (line,) = sender.news
     assert "cmd_vel is said every 1.0 s, and obeyed for 0.5 s each time" in line
     assert "publish 10 times a second or more" in line
+
+
+def test_who_stood_still_is_told_so_and_blames_neither_the_robot_nor_its_own_pace(sender: Sender) -> None:
+    sender.say(0.5)
+    for _ in range(3):
+        sender.clock.pass_by(UNHEARD + 0.5)
+        sender.heard.awake_since = sender.clock.time
+        sender.say(0.1, beats=False)
+    assert sender.news == []
+    sender.refuse()
+    sender.say()
+    (line,) = sender.news
+    assert f"cmd_vel is refused by robot archangel, as this process stood still ({HOW}): {WORDS}" in line
+    sender.refuse("another word")
+    sender.say(LASTS)
+    assert "stood still" in sender.news[0]
+    sender.refuse("a third")
+    sender.say()
+    assert "stood still" not in sender.news[0], "long ago"
 
 
 @pytest.mark.parametrize("gap", [0.1, 0.45, 10.0])

@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from zteleop.bus.loop import FAR, LONGEST_WAIT, Loop, Timer
+from zteleop.control.proof import NEVER
 from zteleop.testing import Clock
 
 real_select = select.select
@@ -248,3 +249,38 @@ def test_a_failure_elsewhere_comes_out_of_the_run(loop: Loop) -> None:
     loop.fail(ZeroDivisionError("an inbox is broken"))
     with pytest.raises(ZeroDivisionError, match="an inbox is broken"):
         loop.run()
+
+
+def test_it_knows_since_when_it_is_awake_where_it_slept_beyond_its_time(
+    loop: Loop, clock: Clock, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def sleep_in(read: list[int], write: list[int], error: list[int], timeout: float) -> tuple:
+        clock.pass_by(timeout + late)
+        return [], [], []
+
+    monkeypatch.setattr(select, "select", sleep_in)
+    loop.every(1.0, nothing)
+    for late in (0.4, 3.0):
+        before = loop.awake_since
+        loop.run_once()  # the first timer is due at once, the others in a second
+        loop.run_once()
+        assert (loop.awake_since == clock.time) is (late > 0.5)
+        assert (loop.awake_since == before) is (late < 0.5)
+    woke = loop.awake_since
+    late = 0.0
+    loop.run_once()
+    assert loop.awake_since == woke
+
+
+def test_an_action_that_takes_long_is_a_standstill_and_a_pause_between_two_runs_is_none(
+    loop: Loop, clock: Clock
+) -> None:
+    loop.call_soon(lambda: clock.pass_by(3.0))
+    loop.run(until=clock.time + 0.1)
+    assert loop.awake_since == NEVER
+    loop.call_soon(lambda: clock.pass_by(3.0))
+    loop.run(until=clock.time + 3.1)
+    assert loop.awake_since == clock.time - 0.1
+    clock.pass_by(5.0)
+    loop.run(until=clock.time + 0.1)
+    assert loop.awake_since == clock.time - 5.2

@@ -2,6 +2,7 @@ import errno
 import os
 import re
 import socket
+import termios
 from contextlib import nullcontext
 from importlib import metadata
 from pathlib import Path
@@ -18,8 +19,8 @@ from zteleop.config import Config, parse
 from zteleop.errors import BusError
 from zteleop.machine import realtime
 
-CAR = Patient(Config(), "", True)
-REAL = Patient(parse(b"driver = 'pca9685'\n[drivers.pca9685]\nbus = 7\n"), "", True)
+CAR = Patient(Config(), "", None)
+REAL = Patient(parse(b"driver = 'pca9685'\n[drivers.pca9685]\nbus = 7\n"), "", None)
 
 
 @pytest.fixture
@@ -89,7 +90,13 @@ def test_a_terminal_that_draws_nothing_hinders(
     monkeypatch: pytest.MonkeyPatch, kind: str, at_terminal: bool, good: bool | None
 ) -> None:
     monkeypatch.setenv("TERM", kind)
-    assert CHECKS["terminal"](CAR._replace(at_terminal=at_terminal)).good is good
+    ours, theirs = os.openpty()
+    termios.tcsetwinsize(theirs, (31, 117))
+    finding = CHECKS["terminal"](CAR._replace(terminal=theirs if at_terminal else None))
+    os.close(ours)
+    os.close(theirs)
+    assert finding.good is good
+    assert ("117 x 31" in finding.words) is (good is True), "not what a pipe is taken for"
 
 
 def test_a_clock_that_was_never_set_hinders(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -138,7 +145,7 @@ def test_multicast_that_does_not_work_hinders(
 
 
 def test_multicast_that_is_switched_off_is_worth_knowing() -> None:
-    assert CHECKS["multicast"](Patient(parse(b"[bus]\nmulticast = false\n"), "", True)).good is None
+    assert CHECKS["multicast"](Patient(parse(b"[bus]\nmulticast = false\n"), "", None)).good is None
 
 
 def test_a_machine_in_no_network_is_worth_knowing(monkeypatch: pytest.MonkeyPatch) -> None:

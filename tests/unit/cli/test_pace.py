@@ -18,5 +18,12 @@ def test_what_comes_too_seldom_is_told_once() -> None:
     assert told(1000.0, 0.002, 3 * TELL_AFTER) == ["comes to 500 a second, of the 1000 asked for"]
 
 
+def test_a_while_in_which_it_stood_still_is_no_slowness() -> None:
+    pace = Pace(10.0)
+    assert [words for tick in range(15) if (words := pace.count(0.1 * tick))] == []
+    assert [words for tick in range(50) if (words := pace.count(9.0 + 0.1 * tick, 9.0))] == []
+    assert [words for tick in range(15) if (words := pace.count(15.0 + 0.2 * tick, 9.0))], "that is slow"
+
+
 def test_a_short_run_is_no_measure() -> None:
     assert told(1000.0, 0.002, 0.9 * TELL_AFTER) == []

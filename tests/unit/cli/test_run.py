@@ -104,6 +104,24 @@ def test_a_wrong_argument_is_a_usage_error(capsys: pytest.CaptureFixture[str]) -
     assert "unrecognized arguments: b" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("verb", "typed", "words"),
+    [
+        ("pub", "cmd_vel Twist --rote 5", "no option --rote; did you mean --rate?"),
+        ("pub", "cmd_vel Twist --rote=5", "no option --rote; did you mean --rate?"),
+        ("keyboard", "--keymapp wasd", "no option --keymapp; did you mean --keymap?"),
+        ("keyboard", "--zebra wasd", "unrecognized arguments: --zebra wasd"),
+    ],
+)
+def test_an_option_that_is_nearly_one_is_asked_about(
+    capsys: pytest.CaptureFixture[str], verb: str, typed: str, words: str
+) -> None:
+    with pytest.raises(SystemExit) as ending:
+        _run.run_verb(verb, "say something", typed.split())
+    assert ending.value.code == 2
+    assert capsys.readouterr().err.endswith(f"zteleop {verb}: error: {words}\n")
+
+
 def test_a_verb_that_is_there_runs(capsys: pytest.CaptureFixture[str], tmp_path: os.PathLike[str]) -> None:
     path = os.path.join(tmp_path, "config.toml")
     with open(path, "w") as file:

@@ -33,6 +33,19 @@ def test_a_claim_begins_anew_after_silence() -> None:
     assert proof.began == 11.0
 
 
+@pytest.mark.parametrize("slept", [0.6, LAPSE, 60.0])
+def test_a_process_that_stood_still_has_not_paused(slept: float) -> None:
+    prover, woke = Prover(7, silence=0.5), 10.1 + slept
+    for time, awake_since in ((10.0, NEVER), (woke + 0.01, woke), (woke + 0.3, woke)):
+        prover.act(beat(time))
+        proof = prover.prove(beat(time), True, time, awake_since)
+    assert proof.began == 10.0, "it goes on, if it still may"
+    prover.act(beat(woke + 1.0))
+    assert prover.prove(beat(woke + 1.0), True, woke + 1.0, woke).began == woke + 1.0, (
+        "a pause after that is one"
+    )
+
+
 def test_a_claim_that_was_moving_before_the_robot_started_has_no_beginning() -> None:
     prover = Prover(7)
     prover.act(None)
