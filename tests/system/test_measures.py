@@ -7,7 +7,7 @@ import subprocess
 from collections.abc import Iterator
 
 import pytest
-from rig import NEUTRAL, PATIENCE, ZTELEOP, Process, Rig, repeating, until
+from rig import NEUTRAL, PATIENCE, ZTELEOP, Process, Rig, Watch, repeating, until
 
 from zteleop.bus import presence
 from zteleop.bus.names import Name
@@ -172,6 +172,54 @@ def test_pub_says_what_comes_on_its_input_and_tells_of_what_is_no_message(rig: R
     assert "String has no field 'dota'; did you mean data?" in result.stderr
     assert result.stderr.endswith("said 3\n")
     assert result.returncode == 0
+
+
+def pipe(rig: Rig, line: str, said: str) -> subprocess.CompletedProcess[str]:
+    """Run a verb with something on its standard input."""
+    command = [*ZTELEOP, *shlex.split(line), *rig.bus_options()]
+    where = {"env": rig.environment, "cwd": rig.folder}
+    return subprocess.run(command, input=said, capture_output=True, text=True, timeout=PATIENCE, **where)
+
+
+def test_a_motion_on_the_input_moves_and_fails_where_nothing_of_it_is_obeyed(rig: Rig) -> None:
+    push = '{"linear": {"x": 0.5}}\n'
+    with Watch(rig) as watch:
+        result = pipe(rig, "pub cmd_vel Twist --stdin", push)
+        assert result.returncode == 0, result
+        assert any(ticks[1] > NEUTRAL[1] for ticks in watch.seen)
+    ask(rig, "stop bench")
+    try:
+        result = pipe(rig, "pub cmd_vel Twist --stdin", push)
+    finally:
+        ask(rig, "stop bench --release")
+    assert result.returncode == 1
+    assert "nothing of it was obeyed: " in result.stderr
+    result = pipe(rig, "pub controls Int16MultiArray --stdin", "data: [376]\n")
+    assert "expected [steering, throttle], found [376]" in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ("{angular: {z: 1.0}}", "turns front wheels and moves nothing: a car turns only while it drives"),
+        (
+            "{linear: {x: 0.2}, angular: {z: 2.0}}",
+            "2 rad/s are asked for, and at 0.2 m/s it makes 0.34 at most",
+        ),
+    ],
+)
+def test_pub_says_what_a_car_does_not_make_of_a_turn(rig: Rig, values: str, words: str) -> None:
+    pub = rig.join("pub", "cmd_vel", "Twist", values, "-r", "1")
+    pub.says(words)
+    until(lambda: "publishing #4" in pub.text, "some more")
+    assert ("publish 10 times a second or more" in pub.text) is ("linear" in values)
+    assert ("--rate 10 drives on" in pub.text) is ("linear" in values)
+    ended(pub)
+
+
+def test_a_command_that_commands_nothing_is_not_said(rig: Rig) -> None:
+    error = ask(rig, "pub controls Int16MultiArray '{data: [376]}' -1", 1)
+    assert error == "zteleop pub: expected [steering, throttle], found [376]\n"
 
 
 def test_pub_that_goes_on_says_that_it_waits_no_longer(rig: Rig) -> None:

@@ -64,6 +64,11 @@ with node:
     print("listening", flush=True)
     node.spin()
 """
+WEATHER = """
+with node:
+    node.on("weather", String)(print)
+    node.spin()
+"""
 IDLE = """
 with node:
     for topic in ("cmd_vel", "pwm"):
@@ -99,6 +104,16 @@ from zteleop.messages import String
 node = Node("program", robot="bench", bus=BusSettings(connect=["{rig.endpoint}"], multicast=False))
 """
     return rig.program(start + text)
+
+
+def test_who_waits_for_what_nobody_says_is_told_and_when_it_is_said_and_when_no_more(rig: Rig) -> None:
+    waits = program(rig, WEATHER)
+    waits.says("nobody publishes bench/weather (zteleop list shows what is said, and by whom)")
+    station = rig.join("pub", "weather", "String", "{data: fair}", "-r", "5")
+    waits.says("bench/weather is published now")
+    station.signal(signal.SIGINT)
+    waits.says("nobody publishes bench/weather any more")
+    assert waits.text.count("nobody publishes") == 2
 
 
 def say(node: Node, topic: str, *texts: str) -> None:

@@ -1,6 +1,7 @@
 """What nodes answer and let others change: programs of their own, a robot behind its door, and the verbs."""
 
 import os
+import re
 import signal
 from collections.abc import Iterator
 
@@ -125,6 +126,17 @@ def test_whoever_does_not_spin_is_named(rig: Rig, lights: Process, node: Node) -
             node.call("lights", SetBoolRequest(True), SetBoolResponse, 0.2)
     finally:
         os.kill(lights.process.pid, signal.SIGCONT)
+
+
+def test_a_node_that_does_not_spin_hides_the_parameters_of_no_other(
+    rig: Rig, lights: Process, node: Node
+) -> None:
+    until(lambda: "/bench/lights\n" in asks(rig, "service", "list")[1], "the service")
+    code, said, error = asks(rig, "param", "list")
+    assert code == 1, "this test's own does not"
+    assert f"/bench/{node.name}:\n/bench/watchdog:\n  log_level\n" in said
+    assert "/bench/lights:\n  brightness\n  log_level\n/bench/" in said
+    assert re.fullmatch(rf"zteleop param list: {node.name} on \S+ did not answer .*\n", error)
 
 
 def test_parameters_are_shown_changed_kept_and_set_again(rig: Rig, lights: Process) -> None:

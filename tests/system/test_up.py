@@ -48,6 +48,8 @@ def test_what_is_killed_is_started_again(rig: Rig) -> None:
     up = rig.run("up")
     until(lambda: "bench obeys" in up.text, "a robot")
     (robot,) = [pid for pid in children(up.process.pid) if b"actuator" in command(pid)]
+    up.signal(signal.SIGTSTP)  # after which it would start nothing again
+    until(lambda: "Ctrl-Z would pause nothing that it started" in up.text, "words")
     os.kill(robot, signal.SIGKILL)
     until(lambda: "robot | ended with signal 9; starts again in 0.1 s" in up.text, "words")
     until(lambda: up.text.count("bench obeys") == 2, "the robot again")

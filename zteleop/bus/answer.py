@@ -3,7 +3,7 @@
 from zteleop.bus import clock
 from zteleop.bus.heard import Heard
 from zteleop.bus.log import NodeLog
-from zteleop.control.command import IN_VAIN, STEERS_ONLY, asks_in_vain, steers_only
+from zteleop.control.command import IN_VAIN, STEERS_ONLY, asks_in_vain
 from zteleop.control.gate import Refusal
 from zteleop.control.proof import NEVER
 from zteleop.control.settings import SOURCES
@@ -76,21 +76,24 @@ class Answer:
             f"until its actuator is on (zteleop node list shows who is there){self._hint}"
         )
 
-    def advise(self, message: Message, moving: bool) -> None:
+    def advise(self, message: Message, moving: bool, steers: bool) -> None:
         """Say of a command that no robot on wheels does it, or, to a program and once, that no car does."""
         if not moving:
             if asks_in_vain(message):
                 self._log.warn(f"what is said on {self._topic} moves nothing: {IN_VAIN}")
-        elif self._advises_turns and steers_only(message, self._heard.vehicle):
+        elif self._advises_turns and steers:
             self._advises_turns = False
             self._log.warn(
                 f"what is said on {self._topic} turns front wheels and moves nothing: {STEERS_ONLY}"
             )
 
-    def heed(self, moving: bool) -> None:
-        """Take in what the robot has answered; only who wants to move something misses it."""
+    def heed(self, moving: bool, steers: bool = False) -> None:
+        """Take in what the robot has answered; only who wants to move something misses it.
+
+        What only `steers` is as good said once as ten times a second.
+        """
         self._heard.listen_for_refusals()
-        self._notice_pace(moving)
+        self._notice_pace(moving and not steers)
         self._notice_robot(moving)
         self._notice_refusal(moving)
 

@@ -15,6 +15,7 @@ from zteleop.bus.publisher import Publisher
 from zteleop.bus.service import ANSWERED_WITHIN, Services, call
 from zteleop.bus.session import Session, open_session
 from zteleop.bus.settings import BusSettings
+from zteleop.bus.speakers import Speakers
 from zteleop.bus.subscription import Received, Subscription
 from zteleop.bus.topics import topic_of
 from zteleop.bus.types import SERVICE, OwnTypes
@@ -32,6 +33,8 @@ V = TypeVar("V", bound=Value)
 Types = type[M] | tuple[type[M], ...]
 
 
+PROGRAM = "program"
+"""what a publisher of commands is, unless it says which input"""
 READS_NO_FILE = "; where it is, a program says by bus=BusSettings(connect=[...]): it reads no config.toml"
 
 
@@ -99,7 +102,7 @@ class Node:
         return self.membership.heard(robot).wait(lambda: self.log.info(words + hint))
 
     def publisher(
-        self, topic: str, types: Types[M], *, source: str = "program", wait: bool = True
+        self, topic: str, types: Types[M], *, source: str = PROGRAM, wait: bool = True
     ) -> Publisher[M]:
         """Return what says messages on a topic; on a command topic, as a source of that kind.
 
@@ -136,7 +139,8 @@ class Node:
         heard = self.membership.heard(name.robot)
         found = self._await(name.robot) if wait else True
         sender = new_id()
-        answer = Answer(f"{sender:x}", said, name.robot, heard, self.log, self._hint, is_program=wait)
+        is_program = source == PROGRAM
+        answer = Answer(f"{sender:x}", said, name.robot, heard, self.log, self._hint, is_program)
         if not found:
             answer.miss()
         self.membership.session.declare_token(presence.sender_key(name.robot, sender))
@@ -173,13 +177,20 @@ class Node:
         return inbox
 
     def on(self, topic: str, types: Types[M]) -> Callable[[Callable[[M], object]], Callable[[M], object]]:
-        """Decorate a function to handle each message of a topic in `spin`."""
+        """Decorate a function to handle each message of a topic in `spin`; of one nobody says, it tells."""
 
         def decorate(function: Callable[[M], object]) -> Callable[[M], object]:
             self.subscription(topic, types, lambda received: function(received.message))
+            self._miss_speakers(resolve(topic, self.robot))
             return function
 
         return decorate
+
+    def _miss_speakers(self, name: Name) -> None:
+        """Tell whoever waits for a topic that nobody publishes it; of commands there may be none for long."""
+        if not topic_of(name.path).command:
+            speakers = Speakers(self.membership.session, name, self.log.warn, self.log.info)
+            speakers.watch(self.membership.loop)
 
     def service(self, name: str, request: type[Q], response: type[R], handler: Callable[[Q], R]) -> None:
         """Answer what others ask under a name, in `spin`; a handler that raises is told to whoever asked.

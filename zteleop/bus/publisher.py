@@ -7,7 +7,7 @@ from zteleop.bus import clock, codec
 from zteleop.bus.answer import Answer
 from zteleop.bus.heard import Heard
 from zteleop.bus.session import Outlet
-from zteleop.control.command import moves, neutral
+from zteleop.control.command import moves, neutral, steers_only
 from zteleop.control.proof import Prover
 from zteleop.errors import BusError, MessageError
 from zteleop.messages import Message
@@ -119,7 +119,8 @@ class Publisher(Generic[M]):
         self._listen()
         moving = moves(message, self._heard.vehicle)
         if self._answer:
-            self._answer.heed(moving)
-            self._answer.advise(message, moving)
+            steers = steers_only(message, self._heard.vehicle)
+            self._answer.heed(moving, steers)
+            self._answer.advise(message, moving, steers)
         proof = self._prover.prove(self._heard.beat, moving, clock.now(), self._heard.awake_since)
         return codec.pack_proof(proof) if proof else None

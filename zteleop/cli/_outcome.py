@@ -1,10 +1,12 @@
 """What became of the commands that a verb said."""
 
 import sys
+from math import tan
 
 from zteleop.bus.escape import printable
 from zteleop.bus.node import Node
 from zteleop.bus.publisher import Publisher
+from zteleop.control import curvature
 from zteleop.control.command import IN_VAIN, asks_in_vain, moves
 from zteleop.errors import BusError
 from zteleop.messages import DriveStatus, Message
@@ -61,4 +63,8 @@ class Outcome:
             return f"{speed:g} m/s are asked for, and it makes {status.max_speed:g} at most{why}"
         if vehicle and turn > TOLERANCE * vehicle.max_turn:
             return f"{turn:g} rad/s are asked for, and it makes {vehicle.max_turn:.3g} at most"
+        if vehicle and vehicle.steers and curvature.rolls(speed):
+            lock = speed * tan(vehicle.max_steering_angle) / vehicle.wheelbase
+            if turn > TOLERANCE * lock:
+                return f"{turn:g} rad/s are asked for, and at {speed:g} m/s it makes {lock:.2g} at most"
         return ""

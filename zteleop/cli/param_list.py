@@ -1,4 +1,5 @@
 import argparse
+import sys
 from collections.abc import Sequence
 
 from zteleop.bus import presence
@@ -20,7 +21,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("node", nargs="?", help="such as archangel/actuator (default: all)")
 
 
-def run(arguments: argparse.Namespace) -> None:
+def run(arguments: argparse.Namespace) -> int:
+    """Print the parameters of each node; return 1 where one of several does not answer."""
     settings = _options.load(arguments)
     with open_session(settings.bus, settle=True) as session:
         known = presence.with_parameters(session)
@@ -31,11 +33,25 @@ def run(arguments: argparse.Namespace) -> None:
             nodes = sorted(there)
         if not nodes:
             raise BusError(_who_is_missing({one.robot for one in known}, settings.robot, session.unreached()))
-        for robot, node in nodes:
-            found = NodeParameters(session, robot, node)
-            if not arguments.node:
-                print(f"{found.name}:")
-            print(printable("\n".join(f"  {name}" for name in found.names()), keep="\n"), flush=True)
+        if arguments.node:
+            _tell(NodeParameters(session, *nodes[0]))
+            return 0
+        return max([_tell_of_one(NodeParameters(session, robot, node)) for robot, node in nodes])
+
+
+def _tell(found: NodeParameters) -> None:
+    print(printable("\n".join(f"  {name}" for name in found.names()), keep="\n"), flush=True)
+
+
+def _tell_of_one(found: NodeParameters) -> int:
+    """Tell those of one node among several, of which one that is busy hides no other."""
+    print(f"{found.name}:", flush=True)
+    try:
+        _tell(found)
+    except BusError as error:
+        print(printable(f"zteleop param list: {error}"), file=sys.stderr, flush=True)
+        return 1
+    return 0
 
 
 def _who_is_missing(robots: set[str], robot: str | None, unreached: Sequence[str]) -> str:

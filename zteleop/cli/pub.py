@@ -20,6 +20,7 @@ from zteleop.cli._draft import Draft
 from zteleop.cli._outcome import Outcome
 from zteleop.cli._pace import Pace
 from zteleop.cli._types import find_type
+from zteleop.control.command import steers_only, to_command
 from zteleop.control.resume import Resume
 from zteleop.control.settings import SOURCES
 from zteleop.errors import BusError, ConfigError, MessageError, nearest
@@ -30,7 +31,7 @@ M = TypeVar("M", bound=Message)
 EXAMPLES = (
     "zteleop pub cmd_vel Twist '{linear: {x: 0.2}}' --rate 10",
     "zteleop pub cmd_vel TwistStamped '{header: auto, twist: {linear: {x: 0.2}}}' --rate 10 --for 1s",
-    "zteleop pub archangel/cmd_vel geometry_msgs/msg/Twist '{angular: {z: 0.5}}' --rate 10 --times 20",
+    "zteleop pub archangel/cmd_vel Twist '{linear: {x: 0.3}, angular: {z: 0.5}}' --rate 10 --times 20",
 )
 HEARD_WITHIN = 3.0
 """s to wait for somebody who hears a topic"""
@@ -82,6 +83,8 @@ def run(arguments: argparse.Namespace) -> None:
         name = resolve(arguments.topic, node.robot)
         publisher = node.publisher(f"/{name}", kind, wait=False)
         command = topic_of(name.path).command
+        if command and not arguments.stdin:
+            to_command(draft.make())  # what commands nothing is not said at all
         # Before anything is said: what reads a type for the first time may swallow a Ctrl-C that comes then.
         outcome = Outcome(node, publisher) if command else None
         asked = arguments.wait_matching_subscriptions
@@ -96,9 +99,10 @@ def run(arguments: argparse.Namespace) -> None:
         if not heard and times is None:
             print("zteleop pub: waits no longer, and says it all the same", file=sys.stderr)
         if arguments.stdin:
-            _say_what_comes(node, publisher, kind)
+            _say_what_comes(node, publisher, kind, outcome)
             return
-        if command and not times and arguments.rate < 1 / OBEYED_FOR:
+        drives = command and not steers_only(draft.make(), node.membership.heard().vehicle)
+        if drives and not times and arguments.rate < 1 / OBEYED_FOR:
             words = f"a robot obeys each for {OBEYED_FOR:g} s, and stops in between; --rate 10 drives on"
             print(f"zteleop pub: {words}", file=sys.stderr)
         resume = Resume(publisher.sender) if arguments.resume and publisher.sender else None
@@ -157,15 +161,22 @@ def _say(
             publisher.let_go()
 
 
-def _say_what_comes(node: Node, publisher: Publisher[M], kind: type[M]) -> None:
-    """Say each message that comes on standard input, at once; one that is none is told of, and left out."""
+def _say_what_comes(node: Node, publisher: Publisher[M], kind: type[M], outcome: Outcome | None) -> None:
+    """Say each message that comes on standard input, at once; one that is none is told of, and left out.
+
+    A last motion is obeyed for as long as any other. Raises BusError where none of several was.
+    """
     documents, file, said, wrong = Documents(), sys.stdin.fileno(), 0, 0
 
     def say(texts: Iterable[str]) -> None:
         nonlocal said, wrong
         for text in texts:
             try:
-                publisher.publish(Draft(kind, text).make())
+                message = Draft(kind, text).make()
+                if outcome:
+                    to_command(message)
+                    outcome.note(message)
+                publisher.publish(message)
             except MessageError as error:
                 wrong += 1
                 print(printable(f"zteleop pub: {error}"), file=sys.stderr, flush=True)
@@ -182,6 +193,10 @@ def _say_what_comes(node: Node, publisher: Publisher[M], kind: type[M]) -> None:
     try:
         node.membership.loop.watch(file, read)
         node.spin()
+        node.membership.loop.unwatch(file)
+        if outcome and said:
+            node.spin(OBEYED_FOR)
+            outcome.check()
     finally:
         publisher.let_go()
     print(f"said {said}", file=sys.stderr)

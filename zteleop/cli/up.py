@@ -4,12 +4,14 @@ import sys
 from collections.abc import Mapping
 from os import environ
 from pathlib import Path
+from shutil import which
 
 from zteleop import config
 from zteleop.bus.escape import printable
 from zteleop.cli import VERBS, find_verb
 from zteleop.cli._completing import places_of
 from zteleop.errors import ConfigError, nearest
+from zteleop.machine import signals
 from zteleop.machine.launch import Launch, Program
 from zteleop.terminal.capabilities import wants_color
 from zteleop.text.toml_places import place, places
@@ -19,6 +21,7 @@ EXAMPLES = (
     "zteleop up --systemd",
 )
 NEEDS_TERMINAL = ("demo", "gamepad", "keyboard", "keys")
+PAUSES_NOTHING = "Ctrl-Z would pause nothing that it started, only who starts it again; Ctrl-C ends all of it"
 LEASHED = ("actuator", "sim")
 """verbs that end when whoever started them does"""
 COLORS = ("36", "33", "35", "32", "34")
@@ -28,7 +31,8 @@ UNIT = """\
 Description=zteleop: {name}
 
 [Service]
-{kind}ExecStart={command}
+{kind}WorkingDirectory={place}
+ExecStart={command}
 Restart=on-failure
 RestartSec=1
 
@@ -36,6 +40,7 @@ RestartSec=1
 WantedBy=multi-user.target
 """
 OF_A_ROBOT = """\
+# deploy/zteleop.service says more for a Pi: its user, its limits, and neutral whatever the end was
 Type=notify
 NotifyAccess=main
 WatchdogSec=2
@@ -63,6 +68,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.systemd:
         print("\n".join(unit(name, one) for name, one in programs.items()), end="")
         return 0
+    signals.stay(lambda: print(f"zteleop up: {PAUSES_NOTHING}", file=sys.stderr, flush=True))
     return Launch(programs, teller(programs)).run()
 
 
@@ -99,7 +105,7 @@ def program(name: str, words: str, path: Path) -> Program:
         typed = [*typed[: len(typed) - len(rest)], *_settings(verb, rest, path), *rest]
         leash = ["--with-parent"] if verb in LEASHED else []
         return Program([sys.executable, "-m", "zteleop", *typed, *leash], verb == "actuator")
-    if "/" not in verb and not _on_path(verb):
+    if "/" not in verb and which(verb) is None:
         known = [one for one in VERBS if one not in NEEDS_TERMINAL]
         raise ConfigError(
             f"launch.{name}: no program {verb!r}, and no verb of zteleop; {nearest(verb, known)}"
@@ -128,17 +134,14 @@ class Teller:
 
 def unit(name: str, one: Program) -> str:
     """Return a systemd unit that starts a program with the machine, and again when it fails."""
-    command = shlex.join(word for word in one.command if word != "--with-parent")
-    return UNIT.format(name=name, command=command, kind=OF_A_ROBOT if one.ends_first else "")
+    first, *rest = (word for word in one.command if word != "--with-parent")
+    command = shlex.join([which(first) or first, *rest])  # systemd looks in no PATH of a shell
+    return UNIT.format(
+        name=name, command=command, place=Path.cwd(), kind=OF_A_ROBOT if one.ends_first else ""
+    )
 
 
 def _settings(verb: str, rest: list[str], path: Path) -> list[str]:
     """Return the option that leads a verb to the same settings, unless it names others, or reads none."""
     knows = "--config" in places_of(verb).options
     return ["--config", str(path.resolve())] if knows and "--config" not in rest else []
-
-
-def _on_path(name: str) -> bool:
-    from shutil import which
-
-    return which(name) is not None

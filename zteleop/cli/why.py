@@ -59,6 +59,8 @@ def state_of(dog: WatchdogStatus) -> str:
     """Return what a watchdog sees, in a line."""
     sees = "pulses that move" if dog.moving else "pulses of rest"
     permits = "commands that allow motion" if dog.allowed else "no command that allows motion now"
+    if dog.allowed and not dog.moving:
+        permits = "commands that it would let pass"
     steps = f"{dog.why}, last {dog.silence * 1000:.0f} ms ago" if dog.state == "watching" else dog.why
     restarts = f"; {dog.restarts} restart{'s'[: dog.restarts - 1]}" if dog.restarts else ""
     return f"{dog.state}: {steps}; sees {sees}, and hears {permits}{restarts}"

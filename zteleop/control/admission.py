@@ -8,9 +8,10 @@ from zteleop.control.deadlines import HEARD_LATE
 from zteleop.control.foreign import Foreigners
 from zteleop.control.gate import Gate, Refusal
 from zteleop.control.hold import PAUSE, Hold, Holds
+from zteleop.control.left import EARLY, Left
 from zteleop.control.mux import Claim, Claims, Mux, Silences
 from zteleop.control.proof import NEVER, Proof, called
-from zteleop.control.refusals import RefusedSources
+from zteleop.control.refusals import LastRefusals
 from zteleop.control.settings import DriveSettings
 from zteleop.control.stop import Latch, stopped_by
 from zteleop.messages import Beat, Pwm, State, Stop, Twist
@@ -61,10 +62,10 @@ class Admission:
         self.foreign = Foreigners(self._sources, grace, now)
         self.holds = Holds()
         self.latch = Latch()
-        self.refusals = RefusedSources()
+        self.refusals = LastRefusals()
         self.interruption = Interruption()
-        self._gone: tuple[str, float] | None = None
-        """who left while it drove, and when"""
+        self._left: Left | None = None
+        """who drove last, and drives no more"""
         self._drove: int | None = None
         self._selected = now
 
@@ -113,7 +114,7 @@ class Admission:
         self.gate.restart(epoch, now)
         self.mux.clear()
         self.foreign.restart(now)
-        self._gone = None
+        self._left = None
         self._selected = now
 
     def hold(self, reason: str, state: State, why: str, now: float) -> None:
@@ -142,6 +143,8 @@ class Admission:
     def stop(self, said: Stop, now: float) -> bool:
         """Obey a stop or a release of one; True when that changed anything."""
         changed = self.latch.obey(said)
+        if changed and self._left and self._left.acted is not None:
+            self._left = None  # the reason is the stop, from now on
         if changed and self.latch.stops:
             self.hold("stop", "stopped", stopped_by(self.latch.stops), now)
         elif changed:  # a release, perhaps of a stop that never arrived
@@ -154,7 +157,7 @@ class Admission:
         """Let go what a sender held whose process is gone."""
         for claim in self.mux.claims:
             if claim.sender == sender:
-                self._gone = (_name(claim), now)
+                self._left = Left(_name(claim), now)
         self.mux.release(sender)
 
     def receive(self, source: str, command: Twist | Pwm, proof: Proof | None, now: float) -> Verdict:
@@ -163,9 +166,9 @@ class Admission:
         sender = proof.sender if proof else 0
         if verdict.refusal:
             self.refusals.note(source, sender, verdict.refusal, now)
-            is_back = self._gone and self._gone[0] == called(source, f"{sender:x}")
+            is_back = self._left and self._left.who == called(source, f"{sender:x}")
             if is_back and verdict.refusal is not Refusal.INTERRUPTED:
-                self._gone = None  # who was gone is here, and refused
+                self._left = None  # who was gone is here, and refused
         else:
             self.refusals.clear(source, sender)
         return verdict
@@ -184,9 +187,7 @@ class Admission:
             return state, why
         if state == "link lost" and now - self._last_heard > self._settings.deadlines.link_loss:
             state, why = "idle", f"nobody drives; {why}"  # nobody has a right to go on any more
-        recent = self.refusals.recent(now, RECENT)
-        if source := max(recent, key=lambda name: recent[name].at, default=None):
-            refused = recent[source]
+        for (source, _), refused in [*self.refusals.recent(now, RECENT).items()][-1:]:
             if refused.why is not Refusal.INTERRUPTED:  # which the reason to rest says already
                 why += f"; {called(source, f'{refused.sender:x}')} is refused: {refused.why}"
         return state, why
@@ -195,7 +196,7 @@ class Admission:
     def _last_heard(self) -> float:
         """When whoever drove last was heard last, or the last interruption ended."""
         heard = max((claim.at for claim in self.mux.claims), default=NEVER)
-        return max(heard, self.interruption.ended, self._gone[1] if self._gone else NEVER)
+        return max(heard, self.interruption.ended, self._left.at if self._left else NEVER)
 
     def _drop(self, reason: str) -> Hold | None:
         """Drop a reason to rest; who was refused for it is not refused any more once there is no other."""
@@ -225,10 +226,10 @@ class Admission:
             return held.state, held.why
         newest = max(self.mux.claims, key=lambda claim: claim.at, default=None)
         if newest and newest.at <= (end := self.interruption.ended) and not self.silences.idle(newest, end):
-            return "link lost", f"{self.interruption.why}; {_name(newest)} goes on with its next act"
+            goes_on = "" if self._is_refused(newest, now) else f"; {_name(newest)} goes on with its next act"
+            return "link lost", f"{self.interruption.why}{goes_on}"
         if newest is None:
-            gone = f"{self._gone[0]} is gone; whoever begins drives" if self._gone else ""
-            return ("link lost", gone) if gone else ("idle", "nobody drives")
+            return self._left.told(self.operator_silence) if self._left else ("idle", "nobody drives")
         silence = self._sources[newest.source].silence
         fell_silent, unheard = newest.at + silence, newest.beat + silence + HEARD_LATE
         if self.silences.idle(newest, min(now, fell_silent, unheard)):  # the first deadline to pass
@@ -242,8 +243,7 @@ class Admission:
 
     def _waits_for_an_act(self, claim: Claim, now: float) -> bool:
         """Say whether a sender talks on, and all of it was decided before its link came back."""
-        refused = self.refusals.recent(now, RECENT).get(claim.source)
-        return refused is not None and (refused.sender, refused.why) == (claim.sender, Refusal.INTERRUPTED)
+        return self._refused_for(claim, now) is Refusal.INTERRUPTED
 
     def _judge(
         self, source: str, command: Twist | Pwm, proof: Proof | None, moving: bool, now: float
@@ -256,17 +256,33 @@ class Admission:
                 self.gate.hear(proof, now)
             return refusal
         if not moving:
-            self._gone = None  # a last neutral may arrive after the news of its sender's end
-            self.mux.release(proof.sender)
+            self._let_go(proof.sender, now)
             return None
         if self.holds:
             return Refusal.INTERRUPTED if self.holds.pass_by_themselves else Refusal.AT_REST
-        self._gone = None
+        self._left = None
         claim = Claim(source, proof.sender, command, proof.acted, now, proof.seq, proof.beat, proof.began)
         if not self.mux.offer(claim):
             return Refusal.HELD
         self.gate.count(proof, now)
         return None
+
+    def _is_refused(self, claim: Claim, now: float) -> bool:
+        """Say whether a sender talks on, and lacks more than an act."""
+        return self._refused_for(claim, now) not in (None, *LACKS_AN_ACT)
+
+    def _refused_for(self, claim: Claim, now: float) -> Refusal | None:
+        refused = self.refusals.recent(now, RECENT).get((claim.source, claim.sender))
+        return refused.why if refused else None
+
+    def _let_go(self, sender: int, now: float) -> None:
+        """Release a claim; where an operator acted no more it is told, also if the input saw it first."""
+        claim = next((claim for claim in self.mux.claims if claim.sender == sender), None)
+        if claim and self.silences.idle(claim, now + EARLY):
+            self._left = Left(_name(claim), now, acted=claim.acted)
+        elif claim or (self._left and self._left.acted is None):
+            self._left = None  # a last neutral may arrive after the news of its sender's end
+        self.mux.release(sender)
 
     def _moves(self, command: Twist | Pwm) -> bool:
         if isinstance(command, Pwm):

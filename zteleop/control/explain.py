@@ -37,6 +37,8 @@ def layers(seen: Snapshot, chip: Evidence) -> list[Layer]:
 def slowed(seen: Snapshot) -> str:
     """Return why the vehicle may not go as fast as it can; nothing when it may."""
     claim, bound = seen.step.claim, seen.step.bound
+    if top_speed(seen) < bound.speed:
+        return f"limits.turn is {seen.limits.turn_of(seen.settings.mixer):g} rad/s"
     if bound.by == "strain":
         return seen.strain
     if bound.by == "parameter":
@@ -46,6 +48,15 @@ def slowed(seen: Snapshot) -> str:
     if bound.by == "source":
         return f"{claim.source} may drive no faster here"
     return _age(seen, claim)  # the link
+
+
+def top_speed(seen: Snapshot) -> float:
+    """Return the highest speed of now in m/s, on the curve that is asked for."""
+    mixer, asked = seen.settings.mixer, wanted(seen)
+    turn, most = abs(asked.angular.z), seen.limits.turn_of(mixer)
+    if turn == 0.0 or most >= mixer.max_turn or not curvature.rolls(asked.linear.x):
+        return seen.step.bound.speed
+    return min(seen.step.bound.speed, abs(asked.linear.x) / turn * most)
 
 
 def wanted(seen: Snapshot) -> Twist:
@@ -80,7 +91,7 @@ def _operator(seen: Snapshot) -> str:
 
 def _gate(seen: Snapshot) -> str:
     told: dict[bool, list[str]] = {True: [], False: []}
-    for source, refused in seen.refused.items():
+    for (source, _), refused in seen.refused.items():
         since, ago = seen.now - refused.since, seen.now - refused.at
         often = "once" if refused.times == 1 else f"{refused.times} times in {since:.1f} s"
         who = called(source, f"{refused.sender:x}")
@@ -156,7 +167,10 @@ def _bounds(seen: Snapshot, claim: Claim, asked: Twist, made: Twist) -> Iterator
     if abs(asked.linear.x) > speed + _LEAST:
         yield _top(claim.source, seen.step.bound)
     best = mixer.unmix(mixer.mix(asked))
-    if abs(made.linear.x) < min(abs(best.linear.x), speed) - _LEAST:
+    top = top_speed(seen)
+    if abs(asked.linear.x) > top + _LEAST and top < speed:
+        yield slowed(seen)
+    if abs(made.linear.x) < min(abs(best.linear.x), top) - _LEAST:
         yield f"speed changes by {limits.acceleration:g} m/s^2"
     if limits.pulse_duty < 1:
         yield f"the throttle is obeyed {limits.pulse_duty:.0%} of the time"

@@ -133,10 +133,19 @@ class WheelLimiter:
         return self._last if self._obeys(now) else self._coast(self._last)
 
     def cap(self, wheels: Wheels, max_speed: float | None) -> Wheels:
-        """Bound a command that names pulses: to full range, and the driven wheels to a speed in m/s."""
+        """Bound a command that names pulses: to full range, to a speed in m/s, and to the yaw rate."""
         speed = self._limits.speed_of(self._mixer, max_speed)
         ends = {name: speed / self._mixer.max_speed if name in self._mixer.driven else 1.0 for name in wheels}
-        return {name: max(-ends[name], min(ends[name], fraction)) for name, fraction in wheels.items()}
+        bounded = {name: max(-ends[name], min(ends[name], fraction)) for name, fraction in wheels.items()}
+        turn = abs(self._mixer.unmix(bounded).angular.z)
+        return self._slow(bounded, turn / self._limits.turn_of(self._mixer))
+
+    def _slow(self, wheels: Wheels, excess: float) -> Wheels:
+        """Divide what is driven by an excess of more than 1: a car keeps its curve, as with a twist."""
+        if excess <= 1:
+            return wheels
+        driven = self._mixer.driven
+        return {name: at / excess if name in driven else at for name, at in wheels.items()}
 
     def _slew(self, name: str, fraction: float, dt: float) -> float:
         rate = self._rates[name]

@@ -9,49 +9,54 @@ TOLD_AFTER = 0.5
 """s of refusals without one command that counted; a single late command is nobody's news"""
 FORGOTTEN_AFTER = LAPSE
 """s without a command"""
+NAMED = 8
+"""of those who were refused last, each of whom is worth a sentence"""
 SENDERS = 64
 """How many are remembered; whoever comes then waits until one is obeyed or silent."""
 
 
 class Refused(NamedTuple):
-    """What the gate last said to a source, and to whom."""
+    """What the gate last said to a sender."""
 
     sender: int
-    """0 where it did not say who it is"""
     why: Refusal
     since: float
     at: float
     times: int
 
 
-class RefusedSources:
-    """Keeps what was last said to each source, for whoever asks why the robot rests."""
+Sender = tuple[str, int]
+"""a source, and one that speaks as it; 0 where it did not say who it is"""
+
+
+class LastRefusals:
+    """Keeps what was last said to each sender, for whoever asks why the robot rests."""
 
     def __init__(self) -> None:
         self.count = 0
         """of all refusals so far"""
-        self._sources: dict[str, Refused] = {}
+        self._senders: dict[Sender, Refused] = {}
 
     def note(self, source: str, sender: int, why: Refusal, now: float) -> None:
         """Remember a refusal; those in a row for one reason are one."""
         self.count += 1
-        last = self._sources.get(source)
-        same = last is not None and (last.sender, last.why) == (sender, why)
-        since, times = (last.since, last.times) if last and same else (now, 0)
-        self._sources[source] = Refused(sender, why, since, now, times + 1)
+        last = self._senders.pop((source, sender), None)
+        since, times = (last.since, last.times) if last and last.why == why else (now, 0)
+        self._senders[source, sender] = Refused(sender, why, since, now, times + 1)
+        if len(self._senders) > NAMED:
+            del self._senders[next(iter(self._senders))]
 
     def clear(self, source: str, sender: int) -> None:
         """Forget what was said to a sender that counts again, or lets go."""
-        if (last := self._sources.get(source)) and last.sender == sender:
-            del self._sources[source]
+        self._senders.pop((source, sender), None)
 
     def forget(self, why: Refusal) -> None:
         """Forget who was refused for a reason that is over."""
-        self._sources = {source: last for source, last in self._sources.items() if last.why != why}
+        self._senders = {sender: last for sender, last in self._senders.items() if last.why != why}
 
-    def recent(self, now: float, seconds: float) -> dict[str, Refused]:
-        """Return what was said in the last seconds, by source."""
-        return {source: last for source, last in self._sources.items() if now - last.at < seconds}
+    def recent(self, now: float, seconds: float) -> dict[Sender, Refused]:
+        """Return what was said in the last seconds, who was last refused at the end."""
+        return {sender: last for sender, last in self._senders.items() if now - last.at < seconds}
 
 
 class Turned(NamedTuple):

@@ -2,7 +2,7 @@
 
 from zteleop.control.drive import Drive, Step
 from zteleop.control.evidence import Evidence
-from zteleop.control.explain import applied, slowed, wanted
+from zteleop.control.explain import applied, slowed, top_speed, wanted
 from zteleop.control.mux import Claim
 from zteleop.control.proof import called
 from zteleop.control.refusals import Turned
@@ -45,7 +45,7 @@ def status(drive: Drive, step: Step, chip: Evidence, now: float, unkept: str = "
         confirmed=chip.confirmed,
         refused=drive.admission.refusals.count,
         clamped=drive.clamped,
-        max_speed=step.bound.speed,
+        max_speed=top_speed(seen),
         latency=step.bound.latency,
         slowed=slowed(seen),
         released=drive.admission.latch.released,

@@ -8,7 +8,7 @@ from zteleop.control.drive import Drive, Step
 from zteleop.control.hold import Hold
 from zteleop.control.limiter import Limits
 from zteleop.control.mux import Claim
-from zteleop.control.refusals import Refused
+from zteleop.control.refusals import Refused, Sender
 from zteleop.control.settings import DriveSettings
 
 RECENT = 10.0
@@ -25,8 +25,8 @@ class Snapshot(NamedTuple):
     step: Step
     claims: list[Claim]
     """whose senders are not silent, whoever of them drives"""
-    refused: Mapping[str, Refused]
-    """lately, by source"""
+    refused: Mapping[Sender, Refused]
+    """lately"""
     holds: Sequence[Hold]
     """why it is at rest, the reason to tell first in front"""
     stopped: bool

@@ -13,6 +13,8 @@ FIRST = 0.6
 """s that a first press counts, until repeats may begin."""
 SHORTEST_GAP, LONGEST_GAP = 0.12, 0.3
 """s after the last repeat until a key counts as let go."""
+TOLD_FOR = 3.0
+"""s that a press in vain is worth a word, unless one counts before"""
 REPEATING = 0.1
 """s; no finger taps faster than this, so shorter intervals are repeats."""
 
@@ -98,4 +100,4 @@ class Block:
 
     def is_felt(self, now: float) -> bool:
         """Say whether a key was pressed just now in vain."""
-        return any(at == self._seen[key] and now - at < FIRST for key, at in self._blocked.items())
+        return any(at == self._seen[key] and now - at < TOLD_FOR for key, at in self._blocked.items())

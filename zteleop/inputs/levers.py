@@ -42,10 +42,13 @@ class Lever:
         return -(-max(0, abs(self._span(sign)) - self.channel.dead_ticks) // self._step)
 
     def count(self, ticks: int) -> int:
-        """Return how many steps from neutral these ticks are, rounded away from it."""
+        """Return how many steps from neutral these ticks are, rounded away from it; all only at its end."""
         moved = ticks - self.channel.neutral_ticks
-        steps = -(-max(0, abs(moved) - self.channel.dead_ticks) // self._step)
-        return steps if moved * self._span(1) > 0 or moved * self._span(-1) < 0 else -steps
+        sign = 1 if moved * self._span(1) > 0 or moved * self._span(-1) < 0 else -1
+        steps, most = -(-max(0, abs(moved) - self.channel.dead_ticks) // self._step), self.most(sign)
+        if 1 < most <= steps and abs(moved) < abs(self._span(sign)):
+            steps = most - 1
+        return sign * steps
 
     @property
     def ticks(self) -> int:

@@ -12,7 +12,8 @@ from zteleop.messages.message import field_types
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 ROS_TYPE = "x-ros-type"
-_WORDS = ("title", "description")
+_BESIDE = ("title", "description", "default", "required")
+"""what a schema says besides which fields there are"""
 
 
 def schema(kind: type, title: str) -> dict[str, Any]:
@@ -34,8 +35,11 @@ def text(kind: type, title: str) -> str:
 
 @cache
 def fingerprint(kind: type[Message]) -> str:
-    """Return eight hexadecimal digits that two messages share when their fields are the same."""
-    found = _without_words(schema(kind, kind.ros_type))
+    """Return eight hexadecimal digits that two messages share when their fields are the same.
+
+    What a field is by default is not among them: whoever rebuilds a type from its schema says every field.
+    """
+    found = _fields_alone(schema(kind, kind.ros_type))
     return sha256(msgspec.json.encode(found, order="sorted")).hexdigest()[:8]
 
 
@@ -53,11 +57,10 @@ def _messages_in(field: Any) -> Iterator[type[Message]]:
         yield from _messages_in(argument)
 
 
-def _without_words(value: Any) -> Any:
+def _fields_alone(value: Any) -> Any:
     if isinstance(value, dict) and "properties" in value:
-        fields = {name: _without_words(field) for name, field in value["properties"].items()}
-        value = {**{k: v for k, v in value.items() if k not in _WORDS}, "properties": fields}
-        return value
+        fields = {name: _fields_alone(field) for name, field in value["properties"].items()}
+        return {**{k: v for k, v in value.items() if k not in _BESIDE}, "properties": fields}
     if isinstance(value, dict):
-        return {key: _without_words(item) for key, item in value.items() if key not in _WORDS}
+        return {key: _fields_alone(item) for key, item in value.items() if key not in _BESIDE}
     return value

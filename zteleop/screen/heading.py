@@ -35,8 +35,10 @@ def bar(spans: list[Span], columns: int) -> list[Span]:
 def state(d: Dashboard, unicode: bool) -> list[Span]:
     """Return what the robot does, in a word."""
     word: str = d.seen.status.state if d.seen.status else "looking" if d.looking else "no actuator"
-    word = d.seen.unmanned.word if d.seen.unmanned else word
-    word = f"no word for {d.seen.silence:.1f} s" if d.seen.silence else word
+    if d.seen.unmanned:
+        word = d.seen.unmanned.word
+    elif d.seen.silence:
+        word = f"no word for {d.seen.silence:.1f} s"
     return [Span(f"{'●' if unicode else '*'} {word}", COLORS.get(word, "yellow"))]
 
 
@@ -91,7 +93,9 @@ def dead_zone(d: Dashboard) -> list[tuple[str, str]]:
     least, most = throttle.neutral_ticks - throttle.dead_ticks, throttle.neutral_ticks + throttle.dead_ticks
     if not least <= ticks <= most:
         return []
-    words = f"throttle {ticks} is in the motor's dead zone, {least} to {most}: it does not turn yet"
+    limited = d.seen.status.slowed if d.seen.status else ""
+    rest = f", as {limited}" if limited else ": it does not turn yet"
+    words = printable(f"throttle {ticks} is in the motor's dead zone, {least} to {most}{rest}", True)
     return [(words, "yellow")]
 
 

@@ -6,6 +6,7 @@ from zteleop.bus.answer import ADVICE, LASTS, UNHEARD, Answer
 from zteleop.bus.heard import Heard
 from zteleop.bus.log import NodeLog
 from zteleop.bus.subscription import Subscription
+from zteleop.control.command import steers_only
 from zteleop.control.gate import Refusal
 from zteleop.control.mixer import Differential
 from zteleop.control.report import to_vehicle
@@ -53,6 +54,9 @@ class Sender:
             if listens:
                 self.heard.listen()
             self.answer.heed(moving)
+
+    def advise(self, message: Message, moving: bool) -> None:
+        self.answer.advise(message, moving, steers_only(message, self.heard.vehicle))
 
     @property
     def news(self) -> list[str]:
@@ -153,8 +157,8 @@ def test_a_robot_that_was_never_heard_is_missed(sender: Sender) -> None:
 
 def test_who_asks_for_what_no_wheels_do_is_told(sender: Sender) -> None:
     sideways = Twist(Vector3(0.0, 0.5, 0.0), Vector3.zero())
-    sender.answer.advise(sideways, False)
-    sender.answer.advise(sideways, False)
+    sender.advise(sideways, False)
+    sender.advise(sideways, False)
     (line,) = sender.news
     assert line == (
         "nose: warning: what is said on cmd_vel moves nothing: "
@@ -168,14 +172,14 @@ def test_a_program_that_turns_a_car_on_the_spot_is_told_once(
 ) -> None:
     sender = Sender(clock, is_program)
     for twist in (Twist.planar(0.0, 0.5), Twist.planar(0.5, 0.5), Twist.planar(0.0, -0.5)):
-        sender.answer.advise(twist, True)  # while nobody knows what it drives
+        sender.advise(twist, True)  # while nobody knows what it drives
     assert sender.news == []
     sender.heard.vehicle = to_vehicle(DriveSettings(), 4.8)
-    sender.answer.advise(Twist.planar(0.5, 0.5), True)
+    sender.advise(Twist.planar(0.5, 0.5), True)
     assert sender.news == []
-    sender.answer.advise(Twist.planar(0.0, 0.5), True)
+    sender.advise(Twist.planar(0.0, 0.5), True)
     clock.pass_by(60.0)  # when the log would tell it again
-    sender.answer.advise(TwistStamped(Header.zero(), Twist.planar(0.0, -0.5)), True)
+    sender.advise(TwistStamped(Header.zero(), Twist.planar(0.0, -0.5)), True)
     expected = (
         "nose: warning: what is said on cmd_vel turns front wheels and moves nothing: "
         "a car turns only while it drives; give linear.x as well as angular.z"
@@ -185,7 +189,7 @@ def test_a_program_that_turns_a_car_on_the_spot_is_told_once(
 
 def test_a_tank_turns_on_the_spot(sender: Sender) -> None:
     sender.heard.vehicle = to_vehicle(TANK, 4.8)
-    sender.answer.advise(Twist.planar(0.0, 0.5), True)
+    sender.advise(Twist.planar(0.0, 0.5), True)
     assert sender.news == []
 
 
@@ -255,6 +259,15 @@ def test_a_stream_and_single_moves_are_no_slow_stream(sender: Sender, gap: float
     for _ in range(10):
         sender.clock.pass_by(gap - 0.1)
         sender.say()
+    assert sender.news == []
+
+
+def test_who_only_steers_is_not_told_to_say_it_more_often(sender: Sender) -> None:
+    for _ in range(10):
+        sender.clock.pass_by(0.9)
+        sender.beats.samples.append(sample(Beat(1, sender.clock.time, 0.0)))
+        sender.heard.listen()
+        sender.answer.heed(True, steers=True)
     assert sender.news == []
 
 

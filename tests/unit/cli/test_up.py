@@ -1,3 +1,5 @@
+import os
+import shutil
 import sys
 from pathlib import Path
 
@@ -62,6 +64,9 @@ def test_a_unit_starts_the_same_and_an_actuators_is_watched() -> None:
     assert f"ExecStart={sys.executable} -m zteleop actuator --config {PATH}\n" in text
     assert "WatchdogSec=2\n" in text
     assert "--with-parent" not in text, "systemd gives it no input that lasts"
+    assert f"WorkingDirectory={os.getcwd()}\n" in text
+    own = up.unit("own", up.program("own", "python ../own.py", PATH))
+    assert f"ExecStart={shutil.which('python')} ../own.py\n" in own, "systemd looks in no PATH of a shell"
     assert "WatchdogSec" not in up.unit("world", up.program("world", "sim", PATH))
 
 

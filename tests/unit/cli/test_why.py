@@ -88,6 +88,7 @@ def test_nobody_there_is_an_error_in_words_that_names_who_is_and_is_told_sooner(
     [
         (dog(moving=True, allowed=True), "sees pulses that move, and hears commands that allow motion"),
         (dog(moving=True), "sees pulses that move, and hears no command that allows motion now"),
+        (dog(allowed=True), "sees pulses of rest, and hears commands that it would let pass"),
         (dog(restarts=3), "no command that allows motion now; 3 restarts"),
         (dog(restarts=1), "no command that allows motion now; 1 restart"),
         (dog(state="starting", why="the actuator starts"), "starting: the actuator starts; sees"),

@@ -287,7 +287,7 @@ def test_a_sender_whose_process_is_gone_lets_go_at_once() -> None:
     step = robot.step()
     assert (step.state, step.why, moves(step)) == (
         "link lost",
-        "keyboard 0001 is gone; whoever begins drives",
+        "keyboard 0001 is gone from the bus; whoever begins drives",
         False,
     )
     assert robot.say(FORWARD, "b") is None  # and somebody else may take over
@@ -324,20 +324,20 @@ def test_who_was_refused_and_lets_go_is_refused_no_more() -> None:
     assert robot.step().why == "nobody drives"
 
 
-def test_refusals_are_counted_by_source_while_their_reason_lasts() -> None:
+def test_refusals_are_counted_by_sender_while_their_reason_lasts() -> None:
     robot = Robot()
     first = robot.now
     for _ in range(3):
         robot.drive.receive("web", FORWARD, None, robot.now)
         robot.wait(0.1)
     refusals = robot.drive.admission.refusals
-    refused = refusals.recent(robot.now, 1.0)["web"]
+    refused = refusals.recent(robot.now, 1.0)["web", 0]
     assert (refused.why, refused.times, refused.since) == (Refusal.UNPROVEN, 3, first)
     assert refused.at == pytest.approx(first + 0.2)
     robot.drive.admission.hold("chip", "fault", "the chip is silent", robot.now)
     robot.say(FORWARD, source="web")
     assert robot.step().why == "the chip is silent"  # which is what matters
-    assert robot.drive.admission.refusals.recent(robot.now, 1.0)["web"][1:] == (
+    assert robot.drive.admission.refusals.recent(robot.now, 1.0)["web", 1][1:] == (
         Refusal.AT_REST,
         robot.now,
         robot.now,

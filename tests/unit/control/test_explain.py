@@ -12,6 +12,7 @@ from zteleop.control.explain import layers
 from zteleop.control.limiter import Limits
 from zteleop.control.mixer import Differential
 from zteleop.control.mux import Source
+from zteleop.control.report import status
 from zteleop.control.servo import Servo
 from zteleop.control.settings import DriveSettings
 from zteleop.control.snapshot import snapshot
@@ -272,4 +273,20 @@ def test_limits_that_somebody_has_narrowed_are_named_at_rest_and_where_they_bind
     robot.drive.limits = Limits(speed=3.0, turn=0.1, pulse_duty=0.5)
     assert says(robot)["limiter"] == "nothing to limit; set narrower: limits.turn 0.1, limits.pulse_duty 0.5"
     robot.hold(Twist.planar(0.5, 1.0), 2.0)
-    assert says(robot)["limiter"].endswith("(set narrower: limits.turn 0.1, limits.pulse_duty 0.5)")
+    told = says(robot)["limiter"]
+    assert ": limits.turn is 0.1 rad/s; " in told
+    assert told.endswith("(set narrower: limits.pulse_duty 0.5)")
+
+
+@pytest.mark.parametrize("command", [Twist.planar(2.0, 0.5), Pwm(400, 400)], ids=["twist", "ticks"])
+def test_a_bound_of_the_yaw_rate_slows_a_car_on_its_curve_and_is_named(command: Twist | Pwm) -> None:
+    robot = Robot()
+    robot.drive.limits = Limits(turn=0.1)
+    robot.hold(command, 3.0)
+    assert re.fullmatch(
+        r"makes it \+0\.\d\d m/s [+-]0\.10 rad/s: limits\.turn is 0\.1 rad/s", says(robot)["limiter"]
+    )
+    told = status(robot.drive, robot.step(), robot.chip(robot.step()), robot.now)
+    assert told.slowed == "limits.turn is 0.1 rad/s"
+    assert 0 < told.max_speed < 0.5
+    assert abs(told.applied.angular.z) == pytest.approx(0.1, abs=0.001)

@@ -435,7 +435,7 @@ def test_who_is_back_in_time_is_told_of_his_next_act(robot: Robot) -> None:
     robot.drive.admission.withdraw(1, robot.now)
     robot.wait(0.5)
     robot.hold(FORWARD, 0.1, act=False)
-    assert robot.step().why == "keyboard 0001 is gone; whoever begins drives"
+    assert robot.step().why == "keyboard 0001 is gone from the bus; whoever begins drives"
 
 
 def test_whoever_is_silent_is_called_so_while_another_is_refused(robot: Robot) -> None:
@@ -443,3 +443,50 @@ def test_whoever_is_silent_is_called_so_while_another_is_refused(robot: Robot) -
     assert robot.say(FORWARD, "b") is Refusal.HELD
     robot.wait(0.5)
     assert "keyboard 0001 has been silent for 0." in robot.step().why
+
+
+@pytest.mark.parametrize("seconds", [0.3, 0.7])
+def test_who_lacks_more_than_an_act_is_not_said_to_go_on_with_one(robot: Robot, seconds: float) -> None:
+    robot.hold(FORWARD, 0.5)
+    stand_still(robot, seconds)
+    robot.hold(FORWARD, 0.1)
+    robot.drive.admission.interrupt("it stood still", robot.now, 0.0)
+    robot.hold(FORWARD, 0.1)
+    why = robot.step().why
+    assert "keyboard 0001 is refused: " in why
+    assert "goes on" not in why
+
+
+@pytest.mark.parametrize("early", [0.0, 0.05])
+def test_who_lets_go_for_want_of_an_act_is_told_as_the_reason_until_another_drives(
+    robot: Robot, early: float
+) -> None:
+    robot.say(FORWARD)
+    acted = robot.now
+    while robot.now - acted < 5.0 - early - STEP:
+        robot.say(FORWARD, act=False)
+        robot.wait(STEP)
+    robot.say(REST, act=False)
+    for _ in range(3):
+        assert (robot.step().state, robot.step().why) == (
+            "idle",
+            "nobody drives; keyboard 0001 had not acted for 5 s",
+        )
+        robot.wait(1.0)
+        robot.say(REST, act=False)  # again and again, as an input does
+    assert begins_anew(robot)
+    robot.say(REST)
+    assert robot.step().why == "nobody drives"
+
+
+def test_after_a_stop_the_reason_is_no_longer_that_somebody_did_not_act(robot: Robot) -> None:
+    robot.say(FORWARD)
+    acted = robot.now
+    while robot.now - acted < 5.0 - STEP:
+        robot.say(FORWARD, act=False)
+        robot.wait(STEP)
+    robot.say(REST, act=False)
+    assert "had not acted" in robot.step().why
+    robot.stop(7)
+    robot.release(7)
+    assert robot.step().why == "nobody drives"

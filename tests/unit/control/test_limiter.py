@@ -99,6 +99,16 @@ def test_named_pulses_obey_the_speed_cap() -> None:
     assert limiter.cap({"throttle": -1.0, "steering": 0.0}, 0.3)["throttle"] == pytest.approx(-0.1)
 
 
+def test_named_pulses_obey_the_yaw_rate_on_their_curve() -> None:
+    limiter = WheelLimiter(Limits(turn=0.1), CAR, DONKEYCAR)
+    for steering, throttle in ((1.0, 1.0), (-0.3, -0.7), (1.0, 0.01), (0.0, 1.0), (1.0, 0.0)):
+        made = limiter.cap({"throttle": throttle, "steering": steering}, None)
+        assert made["steering"] == steering
+        if throttle:
+            assert abs(CAR.unmix(made).angular.z) <= 0.1 + 1e-9
+            assert 0 < made["throttle"] / throttle <= 1.0
+
+
 def test_limits_that_change_while_it_drives_hold_from_the_next_step() -> None:
     limiter = TwistLimiter(Limits(), CAR)
     assert settle(limiter, Twist.planar(2.0)).linear.x == pytest.approx(2.0)

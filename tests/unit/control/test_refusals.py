@@ -1,5 +1,5 @@
 from zteleop.control.gate import Refusal
-from zteleop.control.refusals import FORGOTTEN_AFTER, SENDERS, TOLD_AFTER, RefusedSenders, RefusedSources
+from zteleop.control.refusals import FORGOTTEN_AFTER, NAMED, SENDERS, TOLD_AFTER, LastRefusals, RefusedSenders
 
 STALE, EARLIER = Refusal.STALE, Refusal.EARLIER_START
 
@@ -96,16 +96,28 @@ def test_a_crowd_that_nobody_looks_at_leaves_room_as_well() -> None:
 
 
 def test_refusals_in_a_row_are_one_while_sender_and_reason_are_the_same() -> None:
-    refused = RefusedSources()
+    refused = LastRefusals()
     for at, sender in ((1.0, 7), (1.1, 7), (1.2, 8), (1.3, 8), (1.4, 8)):
         refused.note("program", sender, Refusal.STALE, at)
-    assert refused.recent(1.5, 10.0) == {"program": (8, Refusal.STALE, 1.2, 1.4, 3)}
+    refused.note("program", 7, Refusal.STALE, 1.5)
+    assert [*refused.recent(1.5, 10.0).items()] == [
+        (("program", 8), (8, STALE, 1.2, 1.4, 3)),
+        (("program", 7), (7, STALE, 1.0, 1.5, 3)),
+    ], "two beside each other are counted each, and the newest is the last"
+
+
+def test_no_more_are_named_than_anybody_reads() -> None:
+    refused = LastRefusals()
+    for sender in range(NAMED + 3):
+        refused.note("program", sender, STALE, 1.0)
+    assert [sender for _, sender in refused.recent(1.5, 10.0)] == list(range(3, NAMED + 3))
+    assert refused.count == NAMED + 3
 
 
 def test_whoever_was_refused_for_what_is_over_is_forgotten() -> None:
-    refused = RefusedSources()
+    refused = LastRefusals()
     refused.note("keyboard", 7, Refusal.AT_REST, 1.0)
     refused.note("program", 8, Refusal.STALE, 1.0)
     refused.forget(Refusal.AT_REST)
-    assert list(refused.recent(1.5, 10.0)) == ["program"]
+    assert list(refused.recent(1.5, 10.0)) == [("program", 8)]
     assert refused.count == 2

@@ -142,6 +142,13 @@ def test_counting_steps_undoes_pressing_them(ends, step, presses, dead):
     assert lever.count(lever.ticks) == lever.steps
 
 
+@pytest.mark.parametrize(
+    ("ticks", "count"), [(376, 1), (450, 5), (451, 5), (459, 5), (460, 6), (291, -5), (290, -6)]
+)
+def test_only_the_end_counts_as_all_steps(ticks, count):
+    assert Lever(Channel("steering", 0, 1.0, 2.0, 3.0, 290, 375, 460, 0), 15).count(ticks) == count
+
+
 def test_the_first_step_goes_beyond_the_dead_zone_and_the_next_is_a_step_more():
     lever = Lever(Channel("throttle", 0, 1.0, 2.0, 3.0, 355, 370, 400, 3), 1)
     seen = []

@@ -38,6 +38,26 @@ def test_every_message_that_travels_as_a_schema_arrives_as_the_same() -> None:
         assert fingerprint(found) == fingerprint(kind), kind.ros_type
 
 
+def test_a_type_with_defaults_arrives_as_the_same_and_agrees_with_itself() -> None:
+    class Leaf(Message):
+        ros_type: ClassVar[str] = "acme_msgs/msg/Leaf"
+
+        size: float = 1.0
+
+    class Tree(Message):
+        ros_type: ClassVar[str] = "acme_msgs/msg/Tree"
+
+        default: float
+        leaf: Leaf
+        leaves: list[Leaf] = []
+        bare: bool = False
+        first: Leaf = msgspec.field(default_factory=Leaf)
+        height: int | None = None
+
+    assert fingerprint(struct_of(travelled(Tree))) == fingerprint(Tree)
+    assert "default" in struct_of(travelled(Tree)).__struct_fields__
+
+
 def test_its_zero_and_bounds_are_the_same() -> None:
     assert msgspec.json.encode(struct_of(travelled(Odometry)).zero()) == msgspec.json.encode(Odometry.zero())
     with pytest.raises(msgspec.ValidationError, match="32767"):

@@ -120,6 +120,18 @@ def test_a_throttle_in_the_dead_zone_says_that_nothing_turns(car, ticks, ours, t
     assert (words in texts(heading(board, 80, True))) == told
 
 
+def test_in_the_dead_zone_what_bounds_the_speed_is_named(car):
+    car.channels[1].dead_ticks = 3
+    said = status(pulses=pulses(car, {"throttle": 372}), max_speed=0.06, slowed="limits.turn is 0.1 rad/s")
+    shown = texts(heading(dashboard("step", car, command=Pwm(375, 372), status=said, ours=True), 100, True))
+    assert "throttle 372 is in the motor's dead zone, 367 to 373, as limits.turn is 0.1 rad/s" in shown
+
+
+def test_one_that_ended_is_not_also_said_to_be_silent(car):
+    board = dashboard("hold", car, unmanned=Unmanned("ended", "at rest"), silence=1.2)
+    assert "no word" not in " ".join(texts(heading(board, 80, True)))
+
+
 LATE = {"max_speed": 2.25, "slowed": "commands of keyboard are up to 300 ms old"}
 
 

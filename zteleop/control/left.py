@@ -1,0 +1,23 @@
+"""Who drove, and drives no more, while nobody else does: what the robot rests for."""
+
+from typing import NamedTuple
+
+from zteleop.messages import State
+
+EARLY = 0.1
+"""s before the operator's deadline at which an input that knows it may let go"""
+
+
+class Left(NamedTuple):
+    """Who drives no more, and since when."""
+
+    who: str
+    at: float
+    acted: float | None = None
+    """when it last did, of one that let go because it had not for too long; others are gone from the bus"""
+
+    def told(self, limit: float) -> tuple[State, str]:
+        """Return the state of a robot that nobody else has driven since, and why."""
+        if self.acted is None:
+            return "link lost", f"{self.who} is gone from the bus; whoever begins drives"
+        return "idle", f"nobody drives; {self.who} had not acted for {limit:g} s"
