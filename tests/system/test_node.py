@@ -64,6 +64,16 @@ with node:
     print("listening", flush=True)
     node.spin()
 """
+NEWEST = """
+with node:
+    @node.on("note", String, depth=1)
+    def handle(note: String) -> None:
+        print("heard", note.data, flush=True)
+        time.sleep(1.0)
+
+    print("listening", flush=True)
+    node.spin()
+"""
 WEATHER = """
 with node:
     node.on("weather", String)(print)
@@ -104,6 +114,16 @@ from zteleop.messages import String
 node = Node("program", robot="bench", bus=BusSettings(connect=["{rig.endpoint}"], multicast=False))
 """
     return rig.program(start + text)
+
+
+def test_who_is_slow_may_hear_the_newest_alone(rig: Rig, node: Node) -> None:
+    slow = program(rig, NEWEST)
+    slow.says("listening")
+    say(node, "note", "first")
+    slow.says("heard first")
+    say(node, "note", *(f"number {n}" for n in range(20)), "last")
+    slow.says("heard last")
+    assert slow.text.count("heard") <= 3, "one may have been on its way"
 
 
 def test_who_waits_for_what_nobody_says_is_told_and_when_it_is_said_and_when_no_more(rig: Rig) -> None:

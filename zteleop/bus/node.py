@@ -20,7 +20,7 @@ from zteleop.bus.subscription import Received, Subscription
 from zteleop.bus.topics import topic_of
 from zteleop.bus.types import SERVICE, OwnTypes
 from zteleop.control.proof import Prover
-from zteleop.errors import ConfigError
+from zteleop.errors import ConfigError, MessageError
 from zteleop.interfaces.parameters import Value
 from zteleop.machine import signals, stderr
 from zteleop.machine.ids import new_id
@@ -176,11 +176,13 @@ class Node:
             self.membership.deliver(inbox, handler)
         return inbox
 
-    def on(self, topic: str, types: Types[M]) -> Callable[[Callable[[M], object]], Callable[[M], object]]:
+    def on(
+        self, topic: str, types: Types[M], *, depth: int | None = None
+    ) -> Callable[[Callable[[M], object]], Callable[[M], object]]:
         """Decorate a function to handle each message of a topic in `spin`; of one nobody says, it tells."""
 
         def decorate(function: Callable[[M], object]) -> Callable[[M], object]:
-            self.subscription(topic, types, lambda received: function(received.message))
+            self.subscription(topic, types, lambda received: function(received.message), depth=depth)
             self._miss_speakers(resolve(topic, self.robot))
             return function
 
@@ -276,4 +278,8 @@ class Node:
 
 
 def _tuple(types: Types[M]) -> tuple[type[M], ...]:
-    return types if isinstance(types, tuple) else (types,)
+    kinds = types if isinstance(types, tuple) else (types,)
+    for kind in kinds:
+        if not (isinstance(kind, type) and issubclass(kind, Message)):
+            raise MessageError(f"expected a type of message, such as zteleop.Odometry, found {kind!r:.80}")
+    return kinds

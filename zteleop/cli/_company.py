@@ -49,7 +49,7 @@ def why_silent(name: Name, endpoints: Iterable[Endpoint], unreached: Sequence[st
     endpoints = list(endpoints)
     if speakers := members(name, "pub", endpoints):
         return (
-            f"{_people(speakers)} {_verb('publish', speakers)} it, and said nothing so far"
+            f"{_people(speakers)} {_verb('publish', speakers)} it, and says nothing now"
             f"{_instead(name, speakers, endpoints)}"
         )
     return f"nobody publishes it{_others(name, 'pub', endpoints, unreached)}"

@@ -33,6 +33,8 @@ def _unknown(words: list[str], parser: argparse.ArgumentParser) -> str:
     from difflib import get_close_matches
 
     typed = next((word.partition("=")[0] for word in words if word.startswith("--")), "")
+    if typed.startswith("--qos"):
+        return f"no option {typed}: of QoS there is nothing to choose here"
     known = [option for option in parser.format_help().replace(",", " ").split() if option.startswith("--")]
     if typed and (near := get_close_matches(typed, sorted(set(known)), 1)):
         return f"no option {typed}; did you mean {near[0]}?"

@@ -261,8 +261,10 @@ def _hears(node: Node, publisher: Publisher[M], name: Name, wanted: int = 1) -> 
     known = len(_hearers(node, name))
     if wanted != 1:
         return known >= wanted
-    recorded = presence.holders(node.membership.session, name.robot, "blackbox")
-    return publisher.matched and (bool(known) or not recorded)
+    # In this order: a black box may come between two questions, and must not be taken for somebody else.
+    if not publisher.matched:
+        return False
+    return bool(known) or not presence.holders(node.membership.session, name.robot, "blackbox")
 
 
 def _hearers(node: Node, name: Name) -> list[Endpoint]:

@@ -177,9 +177,11 @@ class FakeNode:
         inbox.handlers += [handler] if handler else []
         return inbox
 
-    def on(self, topic: str, types: object) -> Callable[[Callable[[Any], object]], Callable[[Any], object]]:
+    def on(
+        self, topic: str, types: object, *, depth: int | None = None
+    ) -> Callable[[Callable[[Any], object]], Callable[[Any], object]]:
         def decorate(function: Callable[[Any], object]) -> Callable[[Any], object]:
-            self.subscription(topic, types, lambda received: function(received.message))
+            self.subscription(topic, types, lambda received: function(received.message), depth=depth)
             return function
 
         return decorate

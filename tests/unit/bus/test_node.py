@@ -12,7 +12,7 @@ from zteleop.bus.heard import Heard
 from zteleop.bus.names import known_as
 from zteleop.bus.node import Node
 from zteleop.bus.settings import BusSettings
-from zteleop.errors import ConfigError
+from zteleop.errors import ConfigError, MessageError
 from zteleop.machine import stderr
 from zteleop.messages import Beat, Int16MultiArray, Log, Odometry, Pwm, String, Twist, TwistStamped
 from zteleop.testing import Clock
@@ -275,6 +275,13 @@ def test_whoever_publishes_a_misspelt_topic_is_told_and_not_who_writes_all_of_it
     assert told == [
         f"{name}, which no robot hears; did you mean cmd_vel?" for name in ("cmd_vell", "/cmd_vell")
     ]
+
+
+@pytest.mark.parametrize("kind", ["Odometry", Odometry.zero(), int, None])
+def test_what_is_no_type_of_message_is_named(node: Node, kind: object) -> None:
+    for ask in (node.subscription, node.publisher, lambda topic, types: node.on(topic, types)(print)):
+        with pytest.raises(MessageError, match=r"^expected a type of message, such as .*, found "):
+            ask("odom", kind)  # type: ignore[operator]
 
 
 def test_whoever_listens_to_a_misspelt_topic_is_told(node: Node) -> None:

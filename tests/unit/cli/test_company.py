@@ -42,7 +42,7 @@ def test_a_commands_sources_and_names_are_one_topic() -> None:
 @pytest.mark.parametrize(
     ("topic", "words"),
     [
-        ("abe/odom", "nose on pi-7 publishes it, and said nothing so far"),
+        ("abe/odom", "nose on pi-7 publishes it, and says nothing now"),
         ("abe/odmo", "nobody publishes it; did you mean odom?"),
         ("abe/cmdvel", "nobody publishes it; did you mean cmd_vel?"),
         ("abe/cmd_vel", "nobody publishes it now"),
@@ -61,7 +61,7 @@ def test_a_silence_says_who_says_nothing_or_what_was_meant(topic: str, words: st
 def test_two_who_say_nothing_are_two() -> None:
     two = [end("odom"), end("odom", where="pi-8"), end("odom", where="pi-8")]
     assert why_silent(resolve("abe/odom", None), two) == (
-        "nose on pi-7 and nose on pi-8 publish it, and said nothing so far"
+        "nose on pi-7 and nose on pi-8 publish it, and says nothing now"
     )
 
 
