@@ -66,7 +66,7 @@ with node:
 """
 NEWEST = """
 with node:
-    @node.on("note", String, depth=1)
+    @node.on("newest", String, depth=1)
     def handle(note: String) -> None:
         print("heard", note.data, flush=True)
         time.sleep(1.0)
@@ -119,9 +119,9 @@ node = Node("program", robot="bench", bus=BusSettings(connect=["{rig.endpoint}"]
 def test_who_is_slow_may_hear_the_newest_alone(rig: Rig, node: Node) -> None:
     slow = program(rig, NEWEST)
     slow.says("listening")
-    say(node, "note", "first")
+    say(node, "newest", "first")
     slow.says("heard first")
-    say(node, "note", *(f"number {n}" for n in range(20)), "last")
+    say(node, "newest", *(f"number {n}" for n in range(20)), "last")
     slow.says("heard last")
     assert slow.text.count("heard") <= 3, "one may have been on its way"
 

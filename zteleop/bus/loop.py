@@ -137,15 +137,10 @@ class Loop:
         """Wait for the next thing to do, and do what is due."""
         due = min((timer.due for timer in self._timers), default=FAR)
         due = min(due, FAR if until is None else until)
-        slept = clock.now()
-        timeout = 0.0 if self._ready else max(0.0, min(due - slept, LONGEST_WAIT))
+        self._stir()
+        timeout = 0.0 if self._ready else max(0.0, min(due - self._woke, LONGEST_WAIT))
         readable = select.select([self._ear, *self._files], [], [], timeout)[0]
-        woke = clock.now()
-        if woke - slept - timeout > OVERSLEPT:
-            self.awake_since = woke
-        elif slept - self._woke > OVERSLEPT:
-            self.awake_since = slept
-        self._woke = woke
+        self._stir(timeout)
         if self._ear in readable:
             self._answer()
         for _ in range(len(self._ready)):
@@ -165,8 +160,16 @@ class Loop:
 
     def _run(self, action: Action) -> None:
         if self._running:
+            self._stir()
             self.before_each()
             action()
+
+    def _stir(self, slept: float = 0.0) -> None:
+        """Notice whether more time has passed than the loop slept on purpose."""
+        now = clock.now()
+        if now - self._woke - slept > OVERSLEPT:
+            self.awake_since = now
+        self._woke = now
 
     def _ring(self) -> None:
         if self._bell >= 0 and self._rung.acquire(blocking=False):

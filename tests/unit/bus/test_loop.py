@@ -284,3 +284,12 @@ def test_an_action_that_takes_long_is_a_standstill_and_a_pause_between_two_runs_
     clock.pass_by(5.0)
     loop.run(until=clock.time + 0.1)
     assert loop.awake_since == clock.time - 5.2
+
+
+def test_who_stood_still_knows_it_before_the_next_action(loop: Loop, clock: Clock) -> None:
+    seen: list[float] = []
+    loop.before_each = lambda: seen.append(loop.awake_since)
+    loop.call_soon(lambda: clock.pass_by(3.0))
+    loop.call_soon(nothing)
+    loop.run_once()
+    assert seen == [NEVER, clock.time]
