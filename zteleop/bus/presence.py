@@ -89,21 +89,33 @@ class Publications:
         return now - before, before - now
 
 
-class Robots:
-    """The robots that have an actuator, as they come and go."""
+class Tokens:
+    """The keys of tokens, as they come and go; of more than `most` the first."""
 
-    def __init__(self, session: Session) -> None:
-        self._ring = session.watch_tokens(_ACTUATORS, ROBOTS, history=True)
+    def __init__(self, session: Session, selector: str, most: int) -> None:
+        self._ring = session.watch_tokens(selector, most, history=True)
+        self._most = most
         self._keys: set[str] = set()
 
-    def there(self) -> list[str]:
+    def there(self) -> set[str]:
         """Return those that are there now."""
         while (sample := self._ring.try_recv()) is not None:
             if not sample.is_put:
                 self._keys.discard(sample.key)
-            elif len(self._keys) < ROBOTS:
+            elif len(self._keys) < self._most:
                 self._keys.add(sample.key)
-        return _robots_of(self._keys)
+        return self._keys
+
+
+class Robots:
+    """The robots that have an actuator, as they come and go."""
+
+    def __init__(self, session: Session) -> None:
+        self._tokens = Tokens(session, _ACTUATORS, ROBOTS)
+
+    def there(self) -> list[str]:
+        """Return those that are there now."""
+        return _robots_of(self._tokens.there())
 
 
 def _path(key: str) -> str | None:

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from zteleop.bus import clock
+from zteleop.bus import clock, presence
 from zteleop.bus.loop import Loop
 from zteleop.bus.names import Name
 from zteleop.bus.session import Session
@@ -24,11 +24,10 @@ class Speakers:
         tell_again: Callable[[str], object],
     ) -> None:
         selector = f"robot/{name.robot}/live/pub/*/*/*/{name.path}"
-        self._ring = session.watch_tokens(selector, SPEAKERS, history=True)
+        self._tokens = presence.Tokens(session, selector, SPEAKERS)
         self._name = name
         self._tell = tell
         self._tell_again = tell_again
-        self._there: set[str] = set()
         self._ever = False
         self._missed = 0
         """looks in a row that found nobody"""
@@ -40,15 +39,11 @@ class Speakers:
 
     def _look(self) -> float:
         """Look who has come and gone; return when to look again."""
-        while (sample := self._ring.try_recv()) is not None:
-            if not sample.is_put:
-                self._there.discard(sample.key)
-            elif len(self._there) < SPEAKERS:
-                self._there.add(sample.key)
-        if self._there and self._missed >= LOOKS:
+        there = bool(self._tokens.there())
+        if there and self._missed >= LOOKS:
             self._tell_again(f"{self._name} is published now")
-        self._missed = 0 if self._there else self._missed + 1
-        self._ever |= bool(self._there)
+        self._missed = 0 if there else self._missed + 1
+        self._ever |= there
         if self._missed == LOOKS:
             more = " any more" if self._ever else ""
             self._tell(f"nobody publishes {self._name}{more} (zteleop list shows what is said, and by whom)")

@@ -60,11 +60,11 @@ class Outcome:
         vehicle = self._node.membership.heard().vehicle
         if speed > TOLERANCE * status.max_speed:
             why = f": {status.slowed}" if status.slowed else ""
-            return f"{speed:g} m/s are asked for, and it makes {status.max_speed:g} at most{why}"
+            return f"{speed:.3g} m/s are asked for, and it makes {status.max_speed:.3g} at most{why}"
         if vehicle and turn > TOLERANCE * vehicle.max_turn:
-            return f"{turn:g} rad/s are asked for, and it makes {vehicle.max_turn:.3g} at most"
+            return f"{turn:.3g} rad/s are asked for, and it makes {vehicle.max_turn:.3g} at most"
         if vehicle and vehicle.steers and curvature.rolls(speed):
             lock = speed * tan(vehicle.max_steering_angle) / vehicle.wheelbase
             if turn > TOLERANCE * lock:
-                return f"{turn:g} rad/s are asked for, and at {speed:g} m/s it makes {lock:.2g} at most"
+                return f"{turn:.3g} rad/s are asked for, and at {speed:.3g} m/s it makes {lock:.2g} at most"
         return ""

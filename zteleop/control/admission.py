@@ -143,7 +143,7 @@ class Admission:
     def stop(self, said: Stop, now: float) -> bool:
         """Obey a stop or a release of one; True when that changed anything."""
         changed = self.latch.obey(said)
-        if changed and self._left and self._left.acted is not None:
+        if changed and self._left and self._left.is_idle:
             self._left = None  # the reason is the stop, from now on
         if changed and self.latch.stops:
             self.hold("stop", "stopped", stopped_by(self.latch.stops), now)
@@ -279,8 +279,8 @@ class Admission:
         """Release a claim; where an operator acted no more it is told, also if the input saw it first."""
         claim = next((claim for claim in self.mux.claims if claim.sender == sender), None)
         if claim and self.silences.idle(claim, now + EARLY):
-            self._left = Left(_name(claim), now, acted=claim.acted)
-        elif claim or (self._left and self._left.acted is None):
+            self._left = Left(_name(claim), now, is_idle=True)
+        elif claim or not (self._left and self._left.is_idle):
             self._left = None  # a last neutral may arrive after the news of its sender's end
         self.mux.release(sender)
 

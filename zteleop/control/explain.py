@@ -38,7 +38,7 @@ def slowed(seen: Snapshot) -> str:
     """Return why the vehicle may not go as fast as it can; nothing when it may."""
     claim, bound = seen.step.claim, seen.step.bound
     if top_speed(seen) < bound.speed:
-        return f"limits.turn is {seen.limits.turn_of(seen.settings.mixer):g} rad/s"
+        return _turn_bound(seen)
     if bound.by == "strain":
         return seen.strain
     if bound.by == "parameter":
@@ -57,6 +57,10 @@ def top_speed(seen: Snapshot) -> float:
     if turn == 0.0 or most >= mixer.max_turn or not curvature.rolls(asked.linear.x):
         return seen.step.bound.speed
     return min(seen.step.bound.speed, abs(asked.linear.x) / turn * most)
+
+
+def _turn_bound(seen: Snapshot) -> str:
+    return f"limits.turn is {seen.limits.turn_of(seen.settings.mixer):g} rad/s"
 
 
 def wanted(seen: Snapshot) -> Twist:
@@ -174,9 +178,12 @@ def _bounds(seen: Snapshot, claim: Claim, asked: Twist, made: Twist) -> Iterator
         yield f"speed changes by {limits.acceleration:g} m/s^2"
     if limits.pulse_duty < 1:
         yield f"the throttle is obeyed {limits.pulse_duty:.0%} of the time"
+    on_the_spot = not curvature.rolls(asked.linear.x)
     if mixer.steers and not curvature.rolls(made.linear.x):
-        if not curvature.rolls(asked.linear.x):
+        if on_the_spot:
             yield "a car that stands only turns its front wheels"
+    elif on_the_spot and limits.turn_of(mixer) < min(mixer.max_turn, abs(asked.angular.z)):
+        yield _turn_bound(seen)
     elif abs(_bend(made)) < abs(_bend(asked)) - _LEAST:
         yield "it turns no tighter"
 

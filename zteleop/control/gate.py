@@ -23,7 +23,7 @@ class Refusal(StrEnum):
     REPLAYED = "it repeats an older command"
     STALE = "it is too old, or its sender no longer hears the robot"
     OPERATOR_IDLE = "its operator has not acted for too long"
-    NOT_FROM_NEUTRAL = f"it was moving before the robot started or it was heard again; {ANEW}"
+    NOT_FROM_NEUTRAL = f"it was moving before the robot started, or before it was heard again; {ANEW}"
     BEFORE_RELEASE = f"it was moving before the stop was released; {ANEW}"
     BEFORE_REPAIR = f"it was moving before the chip's fault was over; {ANEW}"
     INTERRUPTED = "it was said before an interruption ended; act once more"

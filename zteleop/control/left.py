@@ -13,11 +13,11 @@ class Left(NamedTuple):
 
     who: str
     at: float
-    acted: float | None = None
-    """when it last did, of one that let go because it had not for too long; others are gone from the bus"""
+    is_idle: bool = False
+    """it let go because nobody had acted for too long; others are gone from the bus"""
 
     def told(self, limit: float) -> tuple[State, str]:
         """Return the state of a robot that nobody else has driven since, and why."""
-        if self.acted is None:
-            return "link lost", f"{self.who} is gone from the bus; whoever begins drives"
-        return "idle", f"nobody drives; {self.who} had not acted for {limit:g} s"
+        if self.is_idle:
+            return "idle", f"nobody drives; {self.who} had not acted for {limit:g} s"
+        return "link lost", f"{self.who} is gone from the bus; whoever begins drives"

@@ -278,6 +278,13 @@ def test_limits_that_somebody_has_narrowed_are_named_at_rest_and_where_they_bind
     assert told.endswith("(set narrower: limits.pulse_duty 0.5)")
 
 
+def test_a_tank_that_turns_on_the_spot_is_told_what_bounds_it() -> None:
+    robot = Robot(TANK)
+    robot.drive.limits = Limits(turn=0.5)
+    robot.hold(Twist.planar(0.0, 2.0), 2.0)
+    assert says(robot)["limiter"] == "makes it +0.00 m/s +0.50 rad/s: limits.turn is 0.5 rad/s"
+
+
 @pytest.mark.parametrize("command", [Twist.planar(2.0, 0.5), Pwm(400, 400)], ids=["twist", "ticks"])
 def test_a_bound_of_the_yaw_rate_slows_a_car_on_its_curve_and_is_named(command: Twist | Pwm) -> None:
     robot = Robot()
