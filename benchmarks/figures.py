@@ -7,6 +7,8 @@ import sys
 from collections.abc import Sequence
 
 TABLE_GAP = "  "
+PYTHON_MS = 10.0
+"""what a bare Python takes from start to end where the targets of starts are meant for"""
 
 
 def command_line(description: str) -> argparse.ArgumentParser:
@@ -29,6 +31,11 @@ def p99(samples: Sequence[float]) -> float:
 
 def median(samples: Sequence[float]) -> float:
     return statistics.median(samples)
+
+
+def paced(most_ms: float, python_ms: float) -> float:
+    """Return a target for how long a start may take, for a machine whose bare Python takes so long."""
+    return round(most_ms * max(1.0, python_ms / PYTHON_MS))
 
 
 def verdict(found: float, most: float, unit: str) -> str:

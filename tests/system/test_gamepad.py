@@ -10,6 +10,7 @@ import pytest
 from rig import NEUTRAL, Rig, Terminal, until
 
 LB, RB, B, START, FORWARD, TURN = "BTN_TL", "BTN_TR", "BTN_EAST", "BTN_START", "ABS_Y", "ABS_X"
+TESTS = Path(__file__).parents[1]
 FAKE = """
 import os, sys
 if "gamepad" in sys.orig_argv and "FAKE_PAD" in os.environ:
@@ -51,6 +52,35 @@ if "gamepad" in sys.orig_argv and "FAKE_PAD" in os.environ:
             return [Moved(name, float(value))]
 
     pads.EvdevPads = Pads
+
+if "sdl" in sys.orig_argv and "FAKE_PAD" in os.environ:
+    from zteleop.inputs import sdl_pads
+
+    def moved_by_the_test(real=sdl_pads._sdl):
+        from virtual_pad import VirtualPad
+
+        sdl, pad, rest = real(), VirtualPad(), b""
+        file = os.open(os.environ["FAKE_PAD"], os.O_RDWR | os.O_NONBLOCK)
+
+        def pump():
+            nonlocal rest
+            try:
+                rest += os.read(file, 4096)
+            except BlockingIOError:
+                pass
+            *lines, rest = rest.split(b"\\n")
+            for name, value in (line.decode().split(" ", 1) for line in lines):
+                if name == "plug":
+                    pad.plug(value)
+                elif name == "unplug":
+                    pad.unplug()
+                else:
+                    pad.move(name, float(value))
+            sdl.pump()
+
+        return sdl._replace(pump=pump)
+
+    sdl_pads._sdl = moved_by_the_test
 """
 
 
@@ -62,7 +92,8 @@ class Pad:
         self.path = folder / "pad"
         os.mkfifo(self.path)
         controls = " ".join((LB, RB, B, START, FORWARD, TURN))
-        self.environment = {"PYTHONPATH": str(folder), "FAKE_PAD": str(self.path), "CONTROLS": controls}
+        path = f"{folder}:{TESTS}"
+        self.environment = {"PYTHONPATH": path, "FAKE_PAD": str(self.path), "CONTROLS": controls}
         self._file = os.open(self.path, os.O_RDWR)
 
     def move(self, *moves: tuple[str, object]) -> None:
@@ -184,6 +215,32 @@ def test_what_a_pad_has_is_learned_by_asking_and_is_good_for_config_toml(rig: Ri
     }
     (rig.folder / "config.toml").write_text(text)
     assert rig.result("check").returncode == 0
+
+
+def test_a_pad_that_sdl_tells_of_drives_as_one_of_linux_does(rig: Rig, pad: Pad) -> None:
+    words = ("gamepad", "--input", "sdl", *rig.bus_options())
+    terminal = rig.terminal(*words, environment=pad.environment)
+    terminal.shows("pad       waiting for a gamepad: plug one in")
+    pad.move(("plug", "Test Pad"))
+    terminal.shows("pad       Test Pad: hold LB to drive, hold RB for full speed, B stops")
+    pad.move(("leftshoulder", 1), ("lefty", -1.0))
+    until(lambda: rig.ticks[1] > NEUTRAL[1] + 5, "throttle")
+    pad.move(("leftx", -1.0))
+    until(lambda: rig.ticks[0] > NEUTRAL[0] + 20, "to the left")
+    terminal.shows("driving, you operate")
+    pad.move(("b", 1))
+    until(lambda: rig.ticks == NEUTRAL, "rest")
+    terminal.shows("stopped")
+    pad.move(("b", 0), ("leftshoulder", 0), ("lefty", 0), ("leftx", 0), ("start", 1))
+    terminal.shows("idle, nobody operates")
+    pad.move(("start", 0), ("leftshoulder", 1), ("lefty", -1.0))
+    until(lambda: rig.ticks[1] > NEUTRAL[1] + 5, "throttle")
+    pad.move(("unplug", ""))
+    until(lambda: rig.ticks == NEUTRAL, "rest")
+    terminal.shows("waiting for a gamepad")
+    terminal.type("\x03")
+    assert terminal.ends() == 0
+    terminal.is_as_found()
 
 
 def test_where_no_pad_is_it_says_so(rig: Rig) -> None:

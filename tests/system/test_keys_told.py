@@ -50,6 +50,22 @@ def test_two_keys_that_are_held_drive_and_steer_and_each_ends_when_it_is_let_go(
     keyboard.shows("idle, nobody operates")
 
 
+def test_the_keys_of_the_course_drive_and_any_other_key_is_neutral(rig: Rig) -> None:
+    terminal = rig.keyboard("--keymap", "course", tells_releases=True)
+    terminal.shows("hold drive", "idle, nobody operates")
+    terminal.key("w")
+    until(lambda: rig.ticks[1] > NEUTRAL[1] + 5, "forward")
+    terminal.key("a")
+    until(lambda: steers(rig, left=True), "left")
+    terminal.key("a", "release")
+    terminal.key("d")
+    until(lambda: steers(rig, left=False), "right")
+    terminal.key("p")
+    until(lambda: rig.ticks == NEUTRAL, "rest, though w and d are held")
+    terminal.key("q")
+    assert terminal.ends() == 0
+
+
 def test_what_is_let_go_unseen_stops_and_arms_nothing(rig: Rig, keyboard: Terminal) -> None:
     for away, back in (("", ""), ("\x1b[O", "\x1b[I")):
         keyboard.key("w")

@@ -33,6 +33,11 @@ class Timer(Struct):
         """Fire at a time of the bus clock."""
         self.due = due
 
+    def pace(self, period: float, now: float) -> None:
+        """Fire at another period from now on, the next time within one of it."""
+        self.period = period
+        self.due = min(self.due, now + period)
+
     def reschedule(self, now: float) -> None:
         """Take the next time of the schedule that lies ahead."""
         if self.period is None:

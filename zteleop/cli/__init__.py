@@ -2,6 +2,7 @@
 
 import os
 import sys
+from typing import NoReturn
 
 VERBS = {
     "demo": "drive a simulated car, all in one",
@@ -81,6 +82,17 @@ Drive a small robot from any device, safely.
 
 zteleop VERB --help tells more. Start with: zteleop demo
 """
+
+
+def program() -> NoReturn:
+    """Run one verb as a process, which ends at once: Python's own end takes 20 to 50 ms more, for nothing."""
+    try:
+        code = main()
+        sys.stdout.flush()  # what Ctrl-C left in it
+        sys.stderr.flush()
+    except OSError:  # whoever read is gone
+        code = 1
+    os._exit(code)
 
 
 def main(argv: list[str] | None = None) -> int:

@@ -4,6 +4,7 @@ import argparse
 import re
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import msgspec
 
@@ -11,12 +12,14 @@ from zteleop import config
 from zteleop.bus import presence
 from zteleop.bus.escape import printable
 from zteleop.bus.names import resolve, robot_name
-from zteleop.bus.node import Node
 from zteleop.bus.session import Session, open_session
 from zteleop.cli._salvage import salvage
 from zteleop.config import Config
 from zteleop.errors import ConfigError
 from zteleop.text.quantity import quantity
+
+if TYPE_CHECKING:
+    from zteleop.bus.node import Node
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -136,8 +139,10 @@ def robot_of(topic: str, settings: Config) -> str | None:
         return settings.robot
 
 
-def join(name: str, settings: Config, patient: bool = False) -> Node:
+def join(name: str, settings: Config, patient: bool = False) -> "Node":
     """Join the bus as a node of the robot meant; with `patient`, what is said waits for a full link."""
+    from zteleop.bus.node import Node  # not what only looks at the bus
+
     session = open_session(settings.bus, settle=settings.robot is None, patient=patient)
     try:
         return Node(name, find_robot(session, settings), session=session)
@@ -146,8 +151,10 @@ def join(name: str, settings: Config, patient: bool = False) -> Node:
         raise
 
 
-def join_for_any(name: str, settings: Config, settle: bool) -> Node:
+def join_for_any(name: str, settings: Config, settle: bool) -> "Node":
     """Join the bus as a node of no robot; with `settle`, once everybody is found."""
+    from zteleop.bus.node import Node
+
     return Node(name, session=open_session(settings.bus, settle=settle))
 
 
@@ -192,7 +199,7 @@ def add_parent(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--with-parent", action="store_true", help=argparse.SUPPRESS)
 
 
-def end_with_parent(options: argparse.Namespace, node: Node) -> None:
+def end_with_parent(options: argparse.Namespace, node: "Node") -> None:
     """End when stdin does: whoever started this process is gone, however it died."""
     if options.with_parent:
         node.membership.loop.watch(sys.stdin.fileno(), node.stop)

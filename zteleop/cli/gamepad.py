@@ -7,10 +7,9 @@ from zteleop.cli import _options
 from zteleop.cli._driving import drive_at_terminal
 from zteleop.errors import DeviceError
 from zteleop.inputs.console import Console
-from zteleop.inputs.evdev.pads import EvdevPads
 from zteleop.inputs.gamepad import Gamepad
 from zteleop.inputs.gamepad_learn import Lesson
-from zteleop.inputs.gamepad_map import USES, GamepadSettings
+from zteleop.inputs.gamepad_map import USES, GamepadSettings, Pads
 from zteleop.inputs.keyboard import Keyboard
 from zteleop.screen.dashboard import Dashboard
 
@@ -24,6 +23,12 @@ LOOK_EVERY = 0.05
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add(parser)
+    parser.add_argument(
+        "--input",
+        choices=["evdev", "sdl"],
+        default="evdev" if sys.platform == "linux" else "sdl",
+        help="what tells of pads: evdev is Linux itself, sdl is for macOS (default here: %(default)s)",
+    )
     parser.add_argument("--list", action="store_true", help="list the pads of this machine, and end")
     parser.add_argument(
         "--learn", action="store_true", help="ask which control does what, and print it for config.toml"
@@ -32,7 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> None:
     settings = _options.load(arguments)
-    pads = EvdevPads(settings.gamepad.device)
+    pads = pads_of(arguments.input, settings.gamepad.device)
     if arguments.list:
         list_pads(pads)
     elif arguments.learn:
@@ -50,7 +55,18 @@ def run(arguments: argparse.Namespace) -> None:
             drive_at_terminal(node, settings, Console(pad, keyboard), "gamepad", known)
 
 
-def list_pads(pads: EvdevPads) -> None:
+def pads_of(name: str, which: str) -> Pads:
+    """Return where pads are looked for, and of which name."""
+    if name == "evdev":
+        from zteleop.inputs.evdev.pads import EvdevPads
+
+        return EvdevPads(which)
+    from zteleop.inputs.sdl_pads import SdlPads
+
+    return SdlPads(which)
+
+
+def list_pads(pads: Pads) -> None:
     """Print a line for each pad; raises DeviceError when there is none."""
     with pads:
         names = pads.names
@@ -59,7 +75,7 @@ def list_pads(pads: EvdevPads) -> None:
     print("\n".join(names))
 
 
-def learn(pads: EvdevPads) -> None:
+def learn(pads: Pads) -> None:
     """Ask for one control after the other; print what config.toml needs."""
     lesson, asked = Lesson(), ""
     with pads:
@@ -71,7 +87,8 @@ def learn(pads: EvdevPads) -> None:
                 print(words, file=sys.stderr, flush=True)
             for moved in pads.read(clock.now()):
                 lesson.heed(moved)
-            select.select([pads.fileno()], [], [], LOOK_EVERY)
+            file = pads.fileno()
+            select.select([] if file is None else [file], [], [], LOOK_EVERY)
     print(as_toml(lesson.settings))
 
 

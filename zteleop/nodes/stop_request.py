@@ -112,6 +112,11 @@ class Stopping:
             self._ways.say(self.robot, self._asked, now)
         return self.state != "pending"
 
+    def listen(self, now: float) -> None:
+        """Take in what is answered on a lane that is this request's alone."""
+        for answer in self._ways.answers():
+            self.hear_lane(answer, now)
+
     def hear_lane(self, answer: Answered, now: float) -> None:
         """Take in what the robot answers without zenoh; whichever answer comes first is believed."""
         mine = self._engages and answer.robot == self.robot and answer.id == self._asked[0].id

@@ -1,8 +1,9 @@
 """The ways by which a stop is said: on the bus, and by a lane that needs none."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from zteleop.bus.lane.call import Call
+from zteleop.bus.lane.wire import Answered
 from zteleop.bus.node import Node
 from zteleop.bus.publisher import Publisher
 from zteleop.bus.topics import TOPICS
@@ -37,6 +38,10 @@ class Ways:
                 self._lane.say(robot, stop)
             if self._publisher:
                 self._publisher.publish(stop)
+
+    def answers(self) -> Iterator[Answered]:
+        """Yield what is answered on the lane; for the only one that asks there."""
+        return self._lane.answers() if self._lane else iter(())
 
     @property
     def _is_matched(self) -> bool:

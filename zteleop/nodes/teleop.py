@@ -17,7 +17,7 @@ from zteleop.screen.view import View
 
 PERIOD = TOPICS["cmd_vel"].every
 AT_REST = 4 * PERIOD
-"""s between two looks while nobody drives: a screen at which nobody sits costs little"""
+"""s between two looks while nobody drives and no key wakes it: a screen at which nobody sits costs little"""
 NEUTRALS = 3
 LATE = 0.5
 """s between two looks at the device, after which this process knows that it was stopped itself."""
@@ -45,13 +45,13 @@ class Teleop:
         self._sight = Sight(node)
         self._twists = node.publisher("cmd_vel", TwistStamped, source=source, wait=False)
         self._pwms = node.publisher("pwm", Pwm, source=source, wait=False)
-        self._lane = lane
         self._stopping = Stopping(node, person(), lane=lane)
         self._looked = clock.now()
         self._neutrals = 0
         self._stick = Stick()
         self._wanted: Twist | Pwm | None = None
         self._picture = node.membership.loop.alarm(self._draw)
+        self._clock = node.membership.loop.every(AT_REST, self.obey)
         device.fit(vehicle)
         offer_speeds(node, device)
 
@@ -63,18 +63,12 @@ class Teleop:
         file = self._device.fileno()
         if file is not None:
             self._node.membership.loop.watch(file, self.obey)
-        self._node.every(PERIOD)(self._tick)
-        self._node.every(AT_REST)(self.obey)  # a key that is pressed wakes it at once
         try:
             self._node.spin()
         finally:
             self._say(None)
         if self._stopping.unanswered:
             raise BusError(self._stopping.words)
-
-    def _tick(self) -> None:
-        if self._is_busy:
-            self.obey()
 
     @property
     def _is_busy(self) -> bool:
@@ -105,6 +99,7 @@ class Teleop:
             self._say(command)
         self._stick, self._wanted = stick, command
         self._picture.ring_at(now + SHOW_AFTER)
+        self._clock.pace(PERIOD if self._is_busy else AT_REST, now)
         if self._device.finished and self._stopping.state != "pending" and not self._stopping.repeats(now):
             self._node.stop()
 
@@ -140,8 +135,7 @@ class Teleop:
         if (vehicle := self._sight.vehicle) and vehicle != self._vehicle:
             self._refit(vehicle, now)
         self._stopping.heed(self._sight.news, now)
-        for answer in self._lane.answers() if self._lane else ():
-            self._stopping.hear_lane(answer, now)
+        self._stopping.listen(now)
 
     def _pass_on_wish(self, now: float) -> None:
         wish, self._device.wish = self._device.wish, None

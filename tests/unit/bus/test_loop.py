@@ -51,6 +51,17 @@ def pipe() -> Iterator[tuple[int, int]]:
         os.close(end)
 
 
+def test_a_timer_keeps_another_pace_from_now_on(loop: Loop, clock: Clock) -> None:
+    start, times = clock.time, []
+    timer = loop.every(0.2, lambda: times.append(clock.time - start))
+    loop.run(until=start + 0.05)
+    timer.pace(0.05, clock.time)  # sooner than it was to fire
+    loop.run(until=start + 0.22)
+    timer.pace(0.2, clock.time)
+    loop.run(until=start + 0.7)
+    assert times == pytest.approx([0.0, 0.1, 0.15, 0.2, 0.25, 0.45, 0.65])
+
+
 def test_a_timer_fires_at_once_and_then_on_its_schedule(loop: Loop, clock: Clock) -> None:
     start, times = clock.time, []
     loop.every(0.1, lambda: times.append(clock.time - start))

@@ -106,6 +106,27 @@ def test_without_arguments_it_reads_those_of_the_process(
     assert main() == 2
 
 
+def test_a_program_says_everything_and_does_not_wait_for_pythons_own_end() -> None:
+    code = (
+        "import atexit, sys, time; from zteleop.cli import program; atexit.register(time.sleep, 60); "
+        "sys.stdout.write('kept, '); sys.argv[1:] = {}; program()"
+    )
+    for words, expected in (["--help"], 0), (["fly"], 2):
+        command = [sys.executable, "-c", code.format(words)]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=30)
+        assert done.returncode == expected
+        assert done.stdout.startswith("kept, ")
+
+
+def test_a_program_whose_reader_left_fails_quietly() -> None:
+    code = "import sys; from zteleop.cli import program; sys.argv[1:] = ['--help']; program()"
+    with subprocess.Popen(
+        [sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    ) as done:
+        done.stdout.close()
+        assert (done.wait(30), done.stderr.read()) == (1, b"")
+
+
 def test_help_costs_neither_zenoh_nor_msgspec() -> None:
     code = (
         "import sys; from zteleop.cli import main; assert main(['--help']) == 0; assert main(['fly']) == 2; "

@@ -222,23 +222,25 @@ def test_run_obeys_on_a_clock_and_whenever_the_device_can_be_read(desk: Desk) ->
     desk.device.file = 7
     desk.teleop.run()
     clocks = [(timer.period, timer.action) for timer in desk.node.loop.timers if timer.period]
-    assert [(PERIOD, desk.teleop._tick), (AT_REST, desk.teleop.obey)] == clocks[-2:]
+    assert (AT_REST, desk.teleop.obey) in clocks
     assert desk.node.loop.watched == {7: desk.teleop.obey}
 
 
 def test_where_nobody_drives_it_looks_less_often(desk: Desk) -> None:
     looks: list[float] = []
     desk.device.read = looks.append
-    desk.teleop._tick()
-    assert not looks
+    desk.node.loop.live(1.0)
+    assert len(looks) == pytest.approx(1.0 / AT_REST, abs=1)
     desk.hear_state("driving")  # somebody else
     desk.teleop.obey()
-    desk.teleop._tick()
-    assert len(looks) == 2
+    looks.clear()
+    desk.node.loop.live(0.5)
+    assert len(looks) == pytest.approx(0.5 / PERIOD, abs=1)
     desk.hear_state("idle")
     desk.teleop.obey()
-    desk.teleop._tick()
-    assert len(looks) == 3
+    looks.clear()
+    desk.node.loop.live(1.0)
+    assert len(looks) == pytest.approx(1.0 / AT_REST, abs=1)
 
 
 @pytest.mark.parametrize("what", ["stick", "stop"])
@@ -251,9 +253,7 @@ def test_whoever_drives_or_stops_is_looked_at_at_every_tick(desk: Desk, what: st
     desk.device.position = Stick()
     looks: list[float] = []
     desk.device.read = looks.append
-    for _ in range(3):  # as many neutrals as it says
-        desk.clock.pass_by(PERIOD)
-        desk.teleop._tick()
+    desk.node.loop.live(2.5 * PERIOD)  # the first at once: as many as the neutrals it says
     assert len(looks) == 3
 
 

@@ -27,6 +27,7 @@ def obey(number: int, frame: FrameType | None) -> None:
         word, _, name = file.read().partition(" ")
     if word == "hang":
         atexit.register(time.sleep, 3600.0)
+        os._exit = lambda status: time.sleep(3600.0)  # type: ignore[assignment,return-value]
     if (word, name) == ("raise", "MainThread"):
         raise SabotageError  # signals are handled in that very thread
     for thread in threading.enumerate() if word == "raise" else ():
