@@ -20,7 +20,7 @@ TYPED = re.findall(r"\| `zteleop ([^`]+)` \|", (DOCS / "shell.md").read_text())
 EXAMPLES += [(find_verb(shlex.split(text))[0], f"zteleop {text}") for text in TYPED]
 OF_ACTUATOR = "/archangel/actuator:\n  ros__parameters:\n    limits.speed: 0.5\n"
 ON_A_SCREEN = {"demo": "quit", "keyboard": "quit", "gamepad": "quit", "keys": "Ctrl-C ends"}
-ALONE = {"actuator", "chaos", "check", "demo", "keys", "neutral", "schema", "up"}
+ALONE = {"actuator", "chaos", "check", "demo", "keys", "neutral", "run", "schema", "up"}
 ALONE |= {f"interface {word}" for word in GROUPS["interface"]} | {"completion"}
 """verbs that need no robot that is there already, or no bus"""
 
@@ -74,6 +74,9 @@ def test_an_example_works(rig: Rig, nobody: Rig, verb: str, text: str) -> None:
     elif verb not in ALONE:
         words += ["--no-multicast-scouting", "--connect", rig.endpoint]
     place = nobody if verb in ALONE else rig
+    if verb == "run":
+        (place.folder / words[1]).parent.mkdir(exist_ok=True)
+        (place.folder / words[1]).write_text("import zteleop; print(zteleop.Twist.planar(0.1))")
     if verb == "param load":
         (place.folder / words[3]).write_text("/**:\n  ros__parameters:\n    log_level: info\n" + OF_ACTUATOR)
     if verb in ON_A_SCREEN:

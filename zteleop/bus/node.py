@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from typing import Any, Self, TypeVar
 
-from zteleop.bus import presence
+from zteleop.bus import presence, times
 from zteleop.bus.answer import Answer
 from zteleop.bus.heard import HEARD_WITHIN
 from zteleop.bus.hearers import Hearers
@@ -24,7 +24,7 @@ from zteleop.errors import ConfigError, MessageError
 from zteleop.interfaces.parameters import Value
 from zteleop.machine import signals, stderr
 from zteleop.machine.ids import new_id
-from zteleop.messages import GetTypeRequest, GetTypeResponse, Log, Message
+from zteleop.messages import GetTypeRequest, GetTypeResponse, Log, Message, service_type
 
 M = TypeVar("M", bound=Message)
 Q = TypeVar("Q", bound=Message)
@@ -244,6 +244,7 @@ class Node:
             self._services.add(name_of, request, response, handler, stands=False)
 
         self._parameters.serve(serve)
+        serve(times.SERVICE, *service_type(times.TYPE), times.tell)
         self.membership.session.declare_token(presence.parameters_key(robot, self.name))
 
     def _serve_types(self, robot: str, tell: Callable[[GetTypeRequest], GetTypeResponse]) -> None:

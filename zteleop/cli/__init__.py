@@ -44,6 +44,7 @@ VERBS = {
     "blackbox": "tell what happened in the minute before a robot stopped",
     "watchdog": "show what a robot's watchdog sees",
     "chaos": "do to a robot whatever can go wrong, and certify that it stops",
+    "run": "run a Python program where zteleop is installed",
     "up": "start what [launch] of config.toml names, and start it again when it fails",
     "neutral": "bring a chip to rest with nothing else running",
     "doctor": "say what hinders zteleop on this machine",
@@ -70,7 +71,6 @@ ELSEWHERE = {
     "rosbag": "a robot keeps its last minute: zteleop blackbox",
     "wtf": "zteleop doctor says what hinders it here",
     "launch": "zteleop up starts what [launch] of config.toml names",
-    "run": "a program runs by its own name; zteleop keyboard drives",
 }
 """what people type who come from elsewhere, and what there is instead"""
 

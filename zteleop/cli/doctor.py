@@ -3,7 +3,8 @@ from contextlib import suppress
 
 from zteleop.bus.escape import printable
 from zteleop.cli import _options
-from zteleop.cli._checkup import CHECKS, Patient
+from zteleop.cli._checkup import CHECKS
+from zteleop.cli._patient import Patient
 from zteleop.cli._salvage import salvage
 from zteleop.errors import DeviceError
 from zteleop.terminal.terminal import find_terminal

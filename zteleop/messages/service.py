@@ -3,6 +3,7 @@
 from typing import ClassVar
 
 from zteleop.messages.message import Message
+from zteleop.messages.std import Time
 
 REQUEST, RESPONSE = "_Request", "_Response"
 
@@ -28,6 +29,18 @@ class GetTypeResponse(Message):
     """eight hexadecimal digits that two types share when their fields are the same"""
     schema: str
     """a JSON Schema, in which each message says its ROS type"""
+
+
+class GetTimeRequest(Message):
+    """What time of day it is where a node runs."""
+
+    ros_type: ClassVar[str] = "zteleop_msgs/srv/GetTime_Request"
+
+
+class GetTimeResponse(Message):
+    ros_type: ClassVar[str] = "zteleop_msgs/srv/GetTime_Response"
+
+    stamp: Time
 
 
 class EmptyRequest(Message):

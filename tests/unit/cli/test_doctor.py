@@ -3,6 +3,7 @@ import os
 import re
 import socket
 import termios
+import time
 from contextlib import nullcontext
 from importlib import metadata
 from pathlib import Path
@@ -10,14 +11,19 @@ from pathlib import Path
 import pytest
 from unit.bus.fakes import Session
 
+from zteleop.bus import codec
 from zteleop.bus.lane import trial
-from zteleop.bus.presence import Endpoint
-from zteleop.cli import _checkup, doctor
-from zteleop.cli._checkup import CHECKS, Finding, Patient
+from zteleop.bus.presence import Endpoint, Member
+from zteleop.bus.session import Reply
+from zteleop.cli import _checkup_bus, _checkup_machine, doctor
+from zteleop.cli._checkup import CHECKS
+from zteleop.cli._patient import Finding, Patient
 from zteleop.cli._run import run_verb
 from zteleop.config import Config, parse
 from zteleop.errors import BusError
-from zteleop.machine import realtime
+from zteleop.machine import health, leftovers, realtime
+from zteleop.machine.leftovers import Running
+from zteleop.messages import GetTimeResponse, Time
 
 CAR = Patient(Config(), "", None)
 REAL = Patient(parse(b"driver = 'pca9685'\n[drivers.pca9685]\nbus = 7\n"), "", None)
@@ -27,9 +33,9 @@ REAL = Patient(parse(b"driver = 'pca9685'\n[drivers.pca9685]\nbus = 7\n"), "", N
 def heard(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """Return the robots that are on the bus."""
     found: list[str] = []
-    monkeypatch.setattr(_checkup, "open_session", lambda bus, settle: nullcontext(Session()))
-    monkeypatch.setattr(_checkup.presence, "robots", lambda session: found)
-    monkeypatch.setattr(_checkup.presence, "endpoints", lambda session: [])
+    monkeypatch.setattr(_checkup_bus, "open_session", lambda bus, settle: nullcontext(Session()))
+    monkeypatch.setattr(_checkup_bus.presence, "robots", lambda session: found)
+    monkeypatch.setattr(_checkup_bus.presence, "endpoints", lambda session: [])
     return found
 
 
@@ -101,7 +107,7 @@ def test_a_terminal_that_draws_nothing_hinders(
 
 def test_a_clock_that_was_never_set_hinders(monkeypatch: pytest.MonkeyPatch) -> None:
     assert CHECKS["clock"](CAR).good
-    monkeypatch.setattr(_checkup, "BUILT", 9999)
+    monkeypatch.setattr(_checkup_machine, "BUILT", 9999)
     good, words = CHECKS["clock"](CAR)
     assert good is False
     assert "sudo timedatectl set-ntp true" in words
@@ -111,7 +117,7 @@ def test_a_port_that_another_has_is_told(monkeypatch: pytest.MonkeyPatch) -> Non
     with socket.socket() as other:
         other.bind(("", 0))
         other.listen()
-        monkeypatch.setattr(_checkup, "PORT", other.getsockname()[1])
+        monkeypatch.setattr(_checkup_bus, "PORT", other.getsockname()[1])
         good, words = CHECKS["port"](CAR)
     assert good is None
     assert words.endswith("/tcp: Address already in use; a robot here may have it, another goes on without")
@@ -138,7 +144,7 @@ def test_multicast_that_does_not_work_hinders(
         return found if isinstance(found, bool) else next(found)
 
     monkeypatch.setattr(trial, "hears_itself", hears)
-    monkeypatch.setattr(_checkup.networks, "is_in_none", lambda: False)
+    monkeypatch.setattr(_checkup_bus.networks, "is_in_none", lambda: False)
     found = CHECKS["multicast"](CAR)
     assert found.good is good
     assert words in found.words
@@ -149,7 +155,7 @@ def test_multicast_that_is_switched_off_is_worth_knowing() -> None:
 
 
 def test_a_machine_in_no_network_is_worth_knowing(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(_checkup.networks, "is_in_none", lambda: True)
+    monkeypatch.setattr(_checkup_bus.networks, "is_in_none", lambda: True)
     words = "this machine is in no network; its own programs and robots find each other"
     assert CHECKS["multicast"](CAR) == Finding(None, words)
 
@@ -175,7 +181,7 @@ def test_who_disagree_about_a_type_hinder(heard: list[str], monkeypatch: pytest.
         Endpoint("abe", kind, node, "pi-7", "acme_msgs/msg/Soil", "soil", digest)
         for kind, node, digest in (("pub", "nose", "11"), ("sub", "ear", "22"))
     ]
-    monkeypatch.setattr(_checkup.presence, "endpoints", lambda session: there)
+    monkeypatch.setattr(_checkup_bus.presence, "endpoints", lambda session: there)
     good, words = CHECKS["robots"](CAR)
     assert good is False
     assert words.startswith("/abe/soil: nose on pi-7 says acme_msgs/msg/Soil 11; ear on pi-7 hears 22 alone")
@@ -186,7 +192,7 @@ def test_a_bus_that_cannot_be_joined_hinders(monkeypatch: pytest.MonkeyPatch, ki
     def refuse(bus: object, settle: bool) -> None:
         raise kind("no such thing")
 
-    monkeypatch.setattr(_checkup, "open_session", refuse)
+    monkeypatch.setattr(_checkup_bus, "open_session", refuse)
     assert CHECKS["robots"](CAR) == (False, "no such thing")
 
 
@@ -220,13 +226,107 @@ def test_a_typo_in_the_config_file_ends_no_examination(
     assert capsys.readouterr() == (said, "")
 
 
+class Clockwork(Session):
+    """Nodes that are so many seconds ahead, and one that does not answer."""
+
+    def __init__(self, **ahead: float | None) -> None:
+        super().__init__()
+        self.ahead = ahead
+
+    def ask(self, key: str, payload: bytes, encoding: str, seconds: float) -> Reply | None:
+        ahead = self.ahead[key.split("/")[-2]]
+        if ahead is None:
+            return None
+        now = time.time() + ahead
+        stamp = Time(int(now), int(now % 1 * 1e9))
+        return Reply(codec.encode(GetTimeResponse(stamp)), codec.encoding_of(GetTimeResponse), False)
+
+
+@pytest.mark.parametrize(
+    ("ahead", "good", "words"),
+    [
+        ({}, None, "no node here tells what time it has"),
+        ({"deaf": None}, None, "no node here tells what time it has"),
+        ({"arm": 0.1, "leg": -0.2}, True, "2 nodes, each within 0.5 s of this machine's clock"),
+        ({"arm": 0.1, "deaf": None}, True, "1 node, each within 0.5 s of this machine's clock"),
+        ({"arm": 0.1, "leg": 7.25}, None, "/abe/leg is 7.2 s ahead of this machine's clock, and so are its"),
+        ({"arm": -3600.0, "leg": 7.25}, None, "/abe/arm is 3600.0 s behind this machine's clock"),
+    ],
+)
+def test_a_node_whose_clock_is_another_is_named(
+    monkeypatch: pytest.MonkeyPatch, ahead: dict[str, float | None], good: bool | None, words: str
+) -> None:
+    members = [Member("abe", node, "pi-7") for node in ahead]
+    monkeypatch.setattr(_checkup_bus, "open_session", lambda bus, settle: nullcontext(Clockwork(**ahead)))
+    monkeypatch.setattr(_checkup_bus.presence, "with_parameters", lambda session: members)
+    found = CHECKS["clocks"](CAR)
+    assert found.good is good
+    assert found.words.startswith(words)
+
+
+@pytest.mark.parametrize(
+    ("alarm", "heat", "throttled", "good", "words"),
+    [
+        (0, 51_234, "0", True, "good, 51 C"),
+        (1, 51_234, "50005", False, "the Pi's supply is too low (undervoltage); use a better one"),
+        (0, 86_000, "0", False, "the Pi is hotter than 85 C; give it air"),
+        (
+            *(0, 51_234, "90000", None),
+            "good now; since its start its supply was too low, it was hot; a better supply, or more air",
+        ),
+    ],
+)
+def test_a_supply_that_is_too_low_hinders(
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+    alarm: int,
+    heat: int,
+    throttled: str,
+    good: bool | None,
+    words: str,
+) -> None:
+    monkeypatch.setattr(_checkup_machine, "SYS", tmp_path)
+    assert CHECKS["supply"](CAR).good is None, "no Pi"
+    for name, text in {
+        "class/hwmon/hwmon0/name": "rpi_volt",
+        "class/hwmon/hwmon0/in0_lcrit_alarm": alarm,
+        "class/thermal/thermal_zone0/type": "cpu-thermal",
+        "class/thermal/thermal_zone0/temp": heat,
+        health.THROTTLED: throttled,
+    }.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(f"{text}\n")
+    assert CHECKS["supply"](CAR) == Finding(good, words)
+
+
+@pytest.mark.parametrize(
+    ("found", "good", "words"),
+    [
+        (None, None, "nobody can tell which processes of zteleop run here: there is no ps"),
+        ([], True, "no other of zteleop runs here"),
+        ([Running(7, "sim", "01:02", True)], True, "sim (7): each at a terminal"),
+        (
+            [Running(7, "sim", "01:02", True), Running(8, "actuator", "2-03:04:05", False)],
+            *(None, "actuator (8, for 2-03:04:05): without a terminal; where no service started one, kill"),
+        ),
+    ],
+)
+def test_a_process_that_was_left_is_named(
+    monkeypatch: pytest.MonkeyPatch, found: list[Running] | None, good: bool | None, words: str
+) -> None:
+    monkeypatch.setattr(leftovers, "running", lambda: found)
+    finding = CHECKS["processes"](CAR)
+    assert finding.good is good
+    assert finding.words.startswith(words)
+
+
 @pytest.mark.parametrize(("driver", "good"), [("pca9685", False), ("simulated", None)])
 def test_privileges_that_are_missing_hinder_a_real_robot(
     monkeypatch: pytest.MonkeyPatch, driver: str, good: bool | None
 ) -> None:
     patient, missing = REAL if driver == "pca9685" else CAR, list[str]()
     monkeypatch.setattr(realtime, "try_out", lambda priority, oom_score: missing)
-    assert _checkup.privileges(patient) == (True, "real-time priority, locked memory, low OOM score")
+    assert _checkup_machine.privileges(patient) == (True, "real-time priority, locked memory, low OOM score")
     missing += [realtime.LOCKED, realtime.SURVIVAL]
-    assert _checkup.privileges(patient).good is good
-    assert _checkup.privileges(patient).words.startswith("no locked memory, low OOM score: ")
+    assert _checkup_machine.privileges(patient).good is good
+    assert _checkup_machine.privileges(patient).words.startswith("no locked memory, low OOM score: ")
