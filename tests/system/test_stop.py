@@ -137,6 +137,7 @@ def test_a_stop_survives_the_actuator_and_its_watchdog(
         rig.actuator()
         statuses.newest()
         assert in_force(statuses).stops == stops
+    assert "stopped since before its start: stopped by " in rig.result("why", *rig.bus_options()).stdout
     assert watch.seen == {NEUTRAL}
     stop_by_shell(rig, "--release")
     drives(rig)

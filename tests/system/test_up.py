@@ -2,6 +2,7 @@
 
 import os
 import signal
+import sys
 
 from rig import NEUTRAL, Rig, until
 
@@ -14,8 +15,8 @@ robot = "actuator --robot bench --no-multicast-scouting --listen {endpoint}"
 """
 
 
-def launched(rig: Rig) -> None:
-    rig.set(LAUNCH.format(join=" ".join(rig.bus_options()), endpoint=rig.endpoint))
+def launched(rig: Rig, own: str = "") -> None:
+    rig.set(LAUNCH.format(join=" ".join(rig.bus_options()), endpoint=rig.endpoint) + own)
 
 
 def test_a_robot_and_its_world_start_together_and_end_in_order_wheels_first(rig: Rig) -> None:
@@ -57,10 +58,11 @@ def test_what_is_killed_is_started_again(rig: Rig) -> None:
     assert up.ends() == 128 + signal.SIGTERM
 
 
-def test_a_robot_whose_starter_is_killed_ends_at_rest(rig: Rig) -> None:
-    launched(rig)
+def test_a_robot_whose_starter_is_killed_ends_at_rest_and_so_does_any_program(rig: Rig) -> None:
+    (rig.folder / "own.py").write_text("import time; print('own runs', flush=True); time.sleep(600)")
+    launched(rig, f"own = '{sys.executable} own.py'")
     up = rig.run("up")
-    until(lambda: "bench obeys" in up.text, "a robot")
+    until(lambda: "bench obeys" in up.text and "| own runs" in up.text, "a robot and a program")
     theirs = children(up.process.pid)
     up.signal(signal.SIGKILL)
     until(lambda: not any(os.path.exists(f"/proc/{pid}") for pid in theirs), "nobody is left")

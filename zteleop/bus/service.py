@@ -133,5 +133,6 @@ def _who_is_silent(session: Session, name: Name, seconds: float) -> str:
         return (
             f"{' and '.join(those)} did not answer /{name} within {seconds:g} s: it is busy, or does not spin"
         )
-    there = {f"/{one.robot}/{one.topic}" for one in known}
+    lives = name.robot in presence.robots(session)  # then another robot's is not what was meant
+    there = {f"/{one.robot}/{one.topic}" for one in known if not lives or one.robot == name.robot}
     return f"nobody serves /{name}" + (f"; {nearest(f'/{name}', there)}" if there else " here")

@@ -98,9 +98,11 @@ def _others(name: Name, kind: Kind, endpoints: list[Endpoint], unreached: Sequen
     if name.robot not in robots:
         return f"; robot {name.robot} is not heard; {who_is_here(robots, name.robot, unreached)}"
     topics = {topic_of(one.topic).name for one in others if (one.robot, one.kind) == (name.robot, kind)}
-    if topic_of(name.path).types or not topics:
+    near = nearest(name.path, topics | TOPICS.keys())
+    of_ones_own = kind == "sub" and not near.startswith("did you mean")  # whoever hears it is yet to come
+    if topic_of(name.path).types or not topics or of_ones_own:
         return " now"
-    return f"; {nearest(name.path, topics | TOPICS.keys())}"
+    return f"; {near}"
 
 
 def _people(endpoints: Iterable[Endpoint]) -> str:

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import NamedTuple
 
-from zteleop.bus import presence
+from zteleop.bus import presence, times
 from zteleop.bus.names import Name, resolve
 from zteleop.bus.parameters import SERVICES as PARAMETER_SERVICES
 from zteleop.bus.presence import Endpoint, Member
@@ -27,12 +27,22 @@ class Graph(NamedTuple):
     """endpoints at which nobody answers, where nobody does at any"""
 
     def topic(self, text: str) -> tuple[Name, list[Endpoint]]:
-        """Return a topic and who publishes or hears it; raises BusError when nobody does."""
-        name = resolve(text, self.robot)
+        """Return a topic and who publishes or hears it; raises BusError for none, or several robots'."""
+        name = resolve(text, self.robot or self._only_robot_of(text))
         found = [one for one in self.endpoints if one.robot == name.robot and _company.meets(name, one)]
         if not found:
             raise BusError(f"Unknown topic '/{name}'; {self._instead(name)}")
         return name, found
+
+    def _only_robot_of(self, text: str) -> str | None:
+        """Return the robot that has a topic typed without one; raises BusError where several have it."""
+        wanted = topic_of(text.strip("/")).name
+        found = sorted({one.robot for one in self.endpoints if topic_of(one.topic).name == wanted})
+        if len(found) > 1:
+            raise BusError(
+                f"several have '{text}': {', '.join(f'/{one}/{wanted}' for one in found)}; say which"
+            )
+        return found[0] if found else None
 
     def service(self, text: str) -> tuple[Name, list[Endpoint]]:
         """Return a service and who answers it; raises BusError when nobody does, or several robots do.
@@ -61,8 +71,8 @@ class Graph(NamedTuple):
 
     @property
     def all_services(self) -> list[Endpoint]:
-        """Also those by which parameters are read and changed, which every node has."""
-        return [*self.services, *(one for node in self.with_parameters for one in parameter_services(node))]
+        """Also those that every node has."""
+        return [*self.services, *(one for node in self.with_parameters for one in node_services(node))]
 
     def _instead(self, name: Name) -> str:
         """Return what somebody may have meant who asked for a topic that nobody has."""
@@ -91,11 +101,11 @@ class Graph(NamedTuple):
         return _company.by_topic(self.endpoints)
 
 
-def parameter_services(node: Member) -> list[Endpoint]:
-    """Return the services by which a node's parameters are read and changed."""
+def node_services(node: Member) -> list[Endpoint]:
+    """Return what every node answers: what its parameters are, and what time it has."""
     return [
         Endpoint(node.robot, "srv", node.node, node.process, ros_type, f"{node.node}/{name}")
-        for name, ros_type in PARAMETER_SERVICES.items()
+        for name, ros_type in {**PARAMETER_SERVICES, times.SERVICE: times.TYPE}.items()
     ]
 
 

@@ -47,9 +47,20 @@ def _summary(settings: Config) -> str:
         )
     sources = sorted(settings.drive.known_sources.items(), key=lambda item: -item[1].priority)
     lines.append("sources  " + ", ".join(f"{name} {source.priority}" for name, source in sources))
+    lines += _idle_limits(settings)
     for name, ours, theirs in _changes(settings):
         lines.append(f"set      {name} = {ours}" + (f", built in {theirs}" if theirs is not None else ""))
     return "\n".join(lines)
+
+
+def _idle_limits(settings: Config) -> Iterator[str]:
+    """Yield the limits that bound nothing, as the vehicle makes no more anyway."""
+    limits, mixer = settings.drive.limits, settings.drive.mixer
+    own = msgspec.structs.replace(limits, speed=None, turn=None).in_numbers(mixer)
+    for name, unit in (("speed", "m/s"), ("turn", "rad/s")):
+        asked, most = getattr(limits, name), getattr(own, name)
+        if asked is not None and asked > most:
+            yield f"note     limits.{name} = {asked:g} bounds nothing: the vehicle makes {most:.3g} {unit}"
 
 
 def _changes(settings: Config) -> Iterator[tuple[str, object, object]]:

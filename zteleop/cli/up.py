@@ -137,8 +137,16 @@ def unit(name: str, one: Program) -> str:
     first, *rest = (word for word in one.command if word != "--with-parent")
     command = shlex.join([which(first) or first, *rest])  # systemd looks in no PATH of a shell
     return UNIT.format(
-        name=name, command=command, place=Path.cwd(), kind=OF_A_ROBOT if one.ends_first else ""
+        name=name,
+        command=_literal(command).replace("$", "$$"),
+        place=_literal(str(Path.cwd())),
+        kind=OF_A_ROBOT if one.ends_first else "",
     )
+
+
+def _literal(text: str) -> str:
+    """Return a text in which systemd fills in nothing."""
+    return text.replace("%", "%%")
 
 
 def _settings(verb: str, rest: list[str], path: Path) -> list[str]:

@@ -7,9 +7,10 @@ from msgspec.structs import asdict
 from zteleop.control import curvature
 from zteleop.control.cap import Bound
 from zteleop.control.evidence import STANDS, Evidence
+from zteleop.control.hold import Hold
 from zteleop.control.mixer import Wheels
 from zteleop.control.mux import Claim
-from zteleop.control.proof import called
+from zteleop.control.proof import NEVER, called
 from zteleop.control.snapshot import Snapshot
 from zteleop.messages import Layer, Pwm, Twist
 
@@ -114,8 +115,12 @@ def _mux(seen: Snapshot) -> str:
 
 def _rest(seen: Snapshot) -> str:
     if seen.holds:
-        return "; ".join(f"{hold.state} for {seen.now - hold.since:.1f} s: {hold.why}" for hold in seen.holds)
+        return "; ".join(f"{hold.state} {_lasting(hold, seen.now)}: {hold.why}" for hold in seen.holds)
     return "free to move" if seen.step.claim else f"{seen.step.state}: {seen.step.why}"
+
+
+def _lasting(hold: Hold, now: float) -> str:
+    return "since before its start" if hold.since == NEVER else f"for {now - hold.since:.1f} s"
 
 
 def _cap(seen: Snapshot) -> str:

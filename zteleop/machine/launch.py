@@ -1,9 +1,11 @@
 """Several programs that are started together, started again when they fail, and ended in order."""
 
+import ctypes
 import os
 import select
 import signal
 import subprocess
+import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
@@ -18,6 +20,15 @@ AT_ONCE, LONGEST = 65536, 4096
 USAGE = 2
 """the exit code of a program that was called wrongly, which no second start mends"""
 LOOK_EVERY = 0.1
+
+
+if sys.platform == "linux":
+    LIBC = ctypes.CDLL(None)
+    PR_SET_PDEATHSIG = 1  # <linux/prctl.h>
+
+    def _end_with_starter() -> None:
+        """Have the kernel end this program when who started it dies, however that was."""
+        LIBC.prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
 
 
 class Program(NamedTuple):
@@ -137,6 +148,7 @@ class Running:
                 stdout=subprocess.PIPE,
                 stderr=subprocess.STDOUT,
                 start_new_session=True,
+                preexec_fn=_end_with_starter if sys.platform == "linux" else None,
             )
         except OSError as error:
             self._fail(127, f"cannot be started: {error.strerror}", now)

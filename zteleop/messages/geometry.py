@@ -4,6 +4,7 @@ from typing import Annotated, ClassVar
 
 from msgspec import Meta
 
+from zteleop.errors import MessageError
 from zteleop.messages.message import Message
 from zteleop.messages.std import Header
 
@@ -30,8 +31,15 @@ class Twist(Message):
 
     @classmethod
     def planar(cls, linear: float = 0.0, angular: float = 0.0) -> "Twist":
-        """Return the twist of a ground robot; a positive angular turns to the left."""
-        return cls(Vector3(float(linear), 0.0, 0.0), Vector3(0.0, 0.0, float(angular)))
+        """Return the twist of a ground robot in m/s and rad/s; a positive angular turns to the left.
+
+        Raises MessageError for what is no number.
+        """
+        try:
+            return cls(Vector3(float(linear), 0.0, 0.0), Vector3(0.0, 0.0, float(angular)))
+        except (TypeError, ValueError):
+            found = f"linear={linear!r:.40}, angular={angular!r:.40}"
+            raise MessageError(f"expected numbers, in m/s and rad/s, found {found}") from None
 
     @property
     def moves(self) -> bool:

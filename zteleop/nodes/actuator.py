@@ -8,7 +8,7 @@ from zteleop.control.command import to_command
 from zteleop.control.deadlines import STEP_EVERY, WATCHDOG_SILENCE
 from zteleop.control.drive import Drive, Step
 from zteleop.control.gate import Refusal
-from zteleop.control.proof import called
+from zteleop.control.proof import NEVER, called
 from zteleop.control.settings import DriveSettings
 from zteleop.control.standing import NOBODY, Standing, go_on, stand
 from zteleop.control.stop import stopped_by
@@ -80,7 +80,7 @@ class Actuator:
         else:
             self._drive.admission.hold(DEAF, "starting", UNHEARD, now)
         for stop in stop_file.load():
-            self._drive.admission.stop(stop, self._since)
+            self._drive.admission.stop(stop, NEVER)  # since when, nobody keeps
         self._watched = clock.now()
         self._step = self._drive.step(self._watched)
         self._answered = float("-inf")

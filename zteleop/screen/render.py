@@ -1,5 +1,6 @@
 """What an operator sees, as lines for a terminal of any size."""
 
+from collections.abc import Iterable, Sequence
 from math import isfinite
 
 from zteleop.screen.dashboard import Dashboard, Line
@@ -22,7 +23,10 @@ def render(dashboard: Dashboard, columns: int, rows: int, *, unicode: bool, colo
     """Return at most `rows` lines, each at most `columns` cells wide."""
     if rows == 1:
         return [paint(fit(brief(dashboard, unicode), columns), color)]
-    body, bottom = choose(readings(dashboard, columns, unicode), footer(dashboard, columns, unicode), rows)
+    whole = readings(dashboard, columns, unicode)
+    body, bottom = choose(whole, footer(dashboard, columns, unicode), rows)
+    if dashboard.keys and (more := told(line.spans for line in whole) - told(body)):
+        body[-1:] = [[Span(f"and {more + 1} more: make the window larger", "dim")]]
     spare = rows - len(body) - len(bottom)
     middle = [*body, *[[Span("")]] * spare]
     if not dashboard.keys and (dashboard.seen.odom is not None or dashboard.seen.status is not None):
@@ -39,6 +43,11 @@ def choose(body: list[Line], bottom: list[Line], rows: int) -> tuple[list[list[S
         [spans for index, spans in chosen if index < len(body)],
         [spans for index, spans in chosen if index >= len(body)],
     )
+
+
+def told(lines: Iterable[Sequence[Span]]) -> int:
+    """Return how many lines say something."""
+    return sum(any(span.text.strip() for span in spans) for spans in lines)
 
 
 def with_picture(

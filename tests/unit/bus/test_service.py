@@ -202,6 +202,14 @@ def test_silence_is_told_with_who_should_have_answered(serves: str, words: str) 
         ask(session)
 
 
+@pytest.mark.parametrize(("mine", "words"), [(True, " here"), (False, r"; did you mean /michael/lights\?")])
+def test_another_robots_service_is_not_meant_where_ones_own_is_there(mine: bool, words: str) -> None:
+    tokens = [presence.service_key(Name("michael", "lights"), "nose", "std_srvs/srv/SetBool")]
+    session = Session([*tokens, *([presence.node_key("archangel", "actuator")] if mine else [])])
+    with pytest.raises(BusError, match=f"^nobody serves /archangel/lights{words}$"):
+        ask(session)
+
+
 def test_a_node_that_is_busy_is_not_said_to_serve_nothing() -> None:
     session = Session([presence.node_key("archangel", "nose")])
     with pytest.raises(BusError, match=r"^nose on [\w-]+ did not answer /archangel/nose/lights within"):

@@ -28,6 +28,13 @@ def test_a_good_file_is_told_with_what_it_makes(
     )
 
 
+def test_a_limit_that_bounds_nothing_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "config.toml").write_text("[drive.limits]\nspeed = 7\nturn = 1.0\n")
+    assert run_verb("check", "check", []) == 0
+    notes = [line for line in capsys.readouterr().out.splitlines() if line.startswith("note")]
+    assert notes == ["note     limits.speed = 7 bounds nothing: the vehicle makes 3 m/s"]
+
+
 def test_without_a_file_it_says_what_is_built_in(capsys: pytest.CaptureFixture[str]) -> None:
     assert run_verb("check", "check", []) == 0
     assert capsys.readouterr().out.startswith("no config file: the built-in simulated car: good\n")

@@ -78,6 +78,7 @@ def test_where_nobody_is_there_no_robot_is_heard() -> None:
         ("abe/scna", "nobody hears it; did you mean scan?"),
         ("abe/cmdvel", "nobody hears it; did you mean cmd_vel?"),
         ("abe/odom", "nobody hears it now"),
+        ("abe/soil", "nobody hears it now"),
         ("zeo/scan", "nobody hears it; robot zeo is not heard; heard here: abe, zoe; did you mean zoe?"),
     ],
 )

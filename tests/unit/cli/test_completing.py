@@ -54,7 +54,7 @@ def bus(monkeypatch: pytest.MonkeyPatch) -> list[object]:
         (["service", "call", "abe/li"], ["abe/lights"]),
         (["pub", "soil", "ac"], ["acme_msgs/msg/Soil"]),
         (["interface", "show", "acme"], ["acme_msgs/msg/Soil"]),
-        (["service", "type", "/abe/actuator/g"], ["/abe/actuator/get_parameters"]),
+        (["service", "type", "/abe/actuator/g"], ["/abe/actuator/get_parameters", "/abe/actuator/get_time"]),
         (["service", "call", "lights", "std_srvs/srv/S"], ["std_srvs/srv/SetBool"]),
         (["param", "set", "/a"], ["/abe/actuator"]),
         (["echo", "--once", "a"], ["abe/odom"]),

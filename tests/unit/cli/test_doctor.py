@@ -249,8 +249,8 @@ class Clockwork(Session):
         ({"deaf": None}, None, "no node here tells what time it has"),
         ({"arm": 0.1, "leg": -0.2}, True, "2 nodes, each within 0.5 s of this machine's clock"),
         ({"arm": 0.1, "deaf": None}, True, "1 node, each within 0.5 s of this machine's clock"),
-        ({"arm": 0.1, "leg": 7.25}, None, "/abe/leg is 7.2 s ahead of this machine's clock, and so are its"),
-        ({"arm": -3600.0, "leg": 7.25}, None, "/abe/arm is 3600.0 s behind this machine's clock"),
+        ({"arm": 0.1, "leg": 7.4}, None, "/abe/leg is 7.4 s ahead of this machine's clock, and so are its"),
+        ({"arm": -3600.0, "leg": 7.4}, None, "/abe/arm is 3600.0 s behind this machine's clock"),
     ],
 )
 def test_a_node_whose_clock_is_another_is_named(

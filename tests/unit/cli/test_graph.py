@@ -5,7 +5,7 @@ import pytest
 from zteleop.bus.presence import Endpoint, Member
 from zteleop.cli import graph, info, node_info
 from zteleop.cli._graph import Graph, find_node, types_of
-from zteleop.errors import BusError
+from zteleop.errors import BusError, ConfigError
 
 TWIST, STAMPED = "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped"
 
@@ -42,6 +42,17 @@ def test_the_types_of_a_topic_are_those_it_is_made_for_and_those_that_are_told()
     assert types_of(HERE.topic("cmd_vel")[1]) == [STAMPED, TWIST]
     assert types_of([end("chatter", "pub", "x", "std_msgs/msg/String")]) == ["std_msgs/msg/String"]
     assert types_of(HERE.topic("chatter")[1]) == ["any"]
+
+
+def test_a_topic_without_a_robot_is_the_only_one_there_is_or_both_are_named() -> None:
+    nowhere = HERE._replace(robot=None)
+    assert str(nowhere.topic("chatter")[0]) == "abe/chatter"
+    assert str(nowhere.topic("/bob/drive_status")[0]) == "bob/drive_status"
+    words = "several have 'drive_status': /abe/drive_status, /bob/drive_status; say which"
+    with pytest.raises(BusError, match=words):
+        nowhere.topic("drive_status")
+    with pytest.raises(ConfigError, match="topic 'scan' names no robot"):
+        nowhere.topic("scan")
 
 
 def test_a_topic_is_told_in_the_words_of_ros() -> None:

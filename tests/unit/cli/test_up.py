@@ -67,6 +67,8 @@ def test_a_unit_starts_the_same_and_an_actuators_is_watched() -> None:
     assert f"WorkingDirectory={os.getcwd()}\n" in text
     own = up.unit("own", up.program("own", "python ../own.py", PATH))
     assert f"ExecStart={shutil.which('python')} ../own.py\n" in own, "systemd looks in no PATH of a shell"
+    odd = up.unit("odd", up.program("odd", "python 100%.py $HOME", PATH))
+    assert "ExecStart=" + f"{shutil.which('python')} 100%%.py '$$HOME'\n" in odd, "systemd fills in nothing"
     assert "WatchdogSec" not in up.unit("world", up.program("world", "sim", PATH))
 
 

@@ -12,6 +12,7 @@ from zteleop.control.explain import layers
 from zteleop.control.limiter import Limits
 from zteleop.control.mixer import Differential
 from zteleop.control.mux import Source
+from zteleop.control.proof import NEVER
 from zteleop.control.report import status
 from zteleop.control.servo import Servo
 from zteleop.control.settings import DriveSettings
@@ -190,6 +191,13 @@ def test_a_reason_to_rest_is_told_with_its_age() -> None:
     robot.stop(7)
     rest = says(robot)["rest"]
     assert rest.startswith("fault for 2.0 s: the chip is silent; stopped for 0.0 s: stopped by ann")
+
+
+def test_how_long_a_reason_from_before_the_start_lasts_nobody_knows() -> None:
+    robot = Robot()
+    robot.drive.admission.hold("stop", "stopped", "stopped by ann", NEVER)
+    robot.wait(2.0)
+    assert says(robot)["rest"] == "stopped since before its start: stopped by ann"
 
 
 def test_who_waits_behind_the_one_who_drives_is_named() -> None:

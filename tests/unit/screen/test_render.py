@@ -85,6 +85,16 @@ def test_the_page_of_keys_has_no_picture_behind_it(car):
     assert not any("⣿" in line for line in lines)
 
 
+@pytest.mark.parametrize("rows", [24, 12, 8])
+def test_a_page_of_keys_that_does_not_fit_says_how_much_more_there_is(car, rows):
+    page = board(car)._replace(keys=[(f"f{number}", f"does {number}") for number in range(12)])
+    lines = shown(page, columns=40, rows=rows)
+    missing = 12 - sum("does" in line for line in lines)
+    said = [int(line.split()[1]) for line in lines if "more: make the window larger" in line]
+    assert bool(said) is bool(missing) is (rows < 24)
+    assert all(more >= missing for more in said), "lines of another kind, too"
+
+
 ALARM = (
     "archangel has not acknowledged the stop within 2 s: "
     "cut its power, or run zteleop neutral --robot archangel on it"
