@@ -119,10 +119,28 @@ def test_a_stop_is_told_with_who_and_why(bench: Accident) -> None:
 def test_an_actuator_that_is_killed_is_told(bench: Accident) -> None:
     actuator = bench.watchdog.child
     assert actuator
-    bench.drive(0.1)
+    bench.drive()
     os.kill(actuator, signal.SIGKILL)
     bench.file("actuator-ended")
-    in_order(bench.told(), "<- written because of this", "another actuator is started")
+    rest = ("driving: ", "the watchdog reads pulses of rest", "watchdog resting: the actuator is gone")
+    told = bench.told()
+    in_order(told, *rest, "<- written because of this", "another actuator is started")
+    assert "pulses at rest" not in told, "which they were long before the next actuator said so"
+
+
+def test_an_actuator_that_rests_as_nobody_watches_it_is_told_when_it_does(bench: Accident) -> None:
+    with repeating(lambda: bench.pwm.publish(FORWARD), RATE):
+        until(lambda: bench.rig.ticks == DRIVEN, "the command on the chip")
+        bench.watchdog.signal(signal.SIGSTOP)
+        until(lambda: bench.rig.ticks == NEUTRAL, "rest")
+        time.sleep(1.0)
+    bench.watchdog.signal(signal.SIGCONT)
+    bench.file("actuator-ended")
+    told = bench.told()
+    words = "actuator reports an error: the watchdog has been silent for 0.5 s; the robot is at rest"
+    in_order(told, "driving: ", words, "watchdog resting: the actuator is gone")
+    assert "pulses at rest" not in told
+    assert bench.watchdog.text.count("the watchdog has been silent") == 1
 
 
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGSEGV])

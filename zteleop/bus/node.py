@@ -143,7 +143,7 @@ class Node:
         answer = Answer(f"{sender:x}", said, name.robot, heard, self.log, self._hint, is_program)
         if not found:
             answer.miss()
-        self.membership.session.declare_token(presence.sender_key(name.robot, sender))
+        self.membership.session.declare_token(presence.sender_key(name.robot, sender, self.name))
         publisher = Publisher[M](
             self.membership.outlet(name, kinds, about.urgent),
             kinds,

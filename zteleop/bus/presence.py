@@ -52,20 +52,21 @@ def node_key(robot: str, node: str) -> str:
     return f"robot/{robot}/live/node/{node}/{process()}"
 
 
-def sender_key(robot: str, sender: int) -> str:
-    return f"robot/{robot}/live/sender/{sender:x}"
+def sender_key(robot: str, sender: int, node: str) -> str:
+    return f"robot/{robot}/live/sender/{sender:x}/{node}/{process()}"
 
 
 class Departures:
     """An inbox of the senders of commands that left, or whose process ended."""
 
     def __init__(self, session: Session, robot: str) -> None:
-        self.ring = session.watch_tokens(f"robot/{robot}/live/sender/*", DEPARTURES)
+        self.ring = session.watch_tokens(f"robot/{robot}/live/sender/**", DEPARTURES)
 
     def read(self, sample: Sample) -> int | None:
         """Return the sender whose token is gone; None for one that came."""
-        name = sample.key.rpartition("/")[2]
-        left = not sample.is_put and len(name) <= 16
+        parts = sample.key.split("/", 5)
+        name = parts[4] if len(parts) > 4 else ""
+        left = not sample.is_put and 0 < len(name) <= 16
         return int(name, 16) if left and set(name) <= set("0123456789abcdef") else None
 
 
@@ -202,6 +203,12 @@ def holders(session: Session, robot: str, node: str) -> list[str]:
 def rivals(session: Session, robot: str, node: str, before: Iterable[str]) -> list[str]:
     """Return who goes first of those that run a node: who did before, and of several at once the lesser."""
     return sorted({*before, *(holder for holder in holders(session, robot, node) if holder < process())})
+
+
+def senders(session: Session, robot: str) -> dict[str, Member]:
+    """Return which node each sender of commands is, by its hexadecimal digits."""
+    keys = (key.split("/") for key in _tokens(session, f"robot/{robot}/live/sender/*/*/*"))
+    return {parts[4]: Member(robot, parts[5], parts[6]) for parts in keys if len(parts) == 7}
 
 
 def robots(session: Session) -> list[str]:

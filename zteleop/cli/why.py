@@ -1,7 +1,10 @@
 import argparse
+import re
 import sys
+from collections.abc import Iterator
 from datetime import UTC, datetime
 
+from zteleop.bus import presence
 from zteleop.bus.escape import printable
 from zteleop.bus.node import Node
 from zteleop.cli import _company, _options
@@ -51,8 +54,16 @@ def answer(node: Node) -> str:
     ]
     lines += [f"  {layer.name:9} {layer.says}" for layer in (why.layers if why else [])]
     lines.append(f"  {'watchdog':9} {state_of(dog) if dog else 'is not heard'}")
+    lines += [f"  {'who':9} {who}" for who in named("\n".join(lines), node)]
     lines.append(f"  {'at':9} {datetime.now(UTC):%Y-%m-%d %H:%M:%S} UTC")
     return "\n".join(map(printable, lines))
+
+
+def named(text: str, node: Node) -> Iterator[str]:
+    """Yield which node each sender is that a text calls by its last digits."""
+    for sender, one in sorted(presence.senders(node.membership.session, node.robot or "").items()):
+        if found := re.search(rf"\b[a-z_]\w* {sender[-4:].zfill(4)}\b", text):
+            yield f"{found[0]} is {one.node} on {one.process}"
 
 
 def state_of(dog: WatchdogStatus) -> str:

@@ -88,6 +88,7 @@ class Actuator:
 
     def run(self) -> None:
         """Drive until the node is stopped, then leave the chip at neutral."""
+        why = ""
         try:
             for source in self._settings.known_sources:
                 for topic in ("cmd_vel", "pwm"):
@@ -110,8 +111,11 @@ class Actuator:
                 self._node.log.warn(f"{why}; whoever drove goes on with the next act")
                 self._journal.event("interruption", why=why)
             self._node.spin()
+        except UnwatchedError as error:
+            why = str(error)
+            raise
         finally:
-            self._finish()
+            self._finish(why)
 
     def _take_over(self, standing: Standing, now: float) -> None:
         """Go on in the place of an actuator that was ended for being late."""
@@ -119,8 +123,8 @@ class Actuator:
         go_on(self._drive, standing, TAKEN_OVER, now)
         self._drive.admission.pause(DEAF, UNHEARD, now)
 
-    def _finish(self) -> None:
-        """Leave neutral behind, as far as the chip takes it.
+    def _finish(self, why: str) -> None:
+        """Leave neutral behind, as far as the chip takes it, and say why where nobody is left to say it.
 
         First of all the watchdog is told that this is an end: leaving the bus may take longer than the
         silence after which it would start another in the place of one that was only late.
@@ -128,6 +132,9 @@ class Actuator:
         self._link.close()
         try:
             self._output.rest()
+            if why:
+                self._node.log.show = lambda line: None  # whoever is raised to prints it
+                self._node.log.error(why)
         finally:
             self._output.close()
             self._journal.close()

@@ -286,7 +286,7 @@ class Watchdog:
                 state="ended" if ended else self._state,
                 why=self._why,
                 silence=max(0.0, self._child.silence(now)),
-                moving=self._judge.moving,
+                moving=self._judge.moving if self._restart_at is None else not self._hand.at_rest,
                 allowed=self._judge.allowed(now),
                 commands=self._ears.commands % 2**32,
                 restarts=self._child.starts - 1,

@@ -145,8 +145,10 @@ class Timeline:
 
     def _hear_watchdog(self, dog: _Dog, at: float) -> None:
         before, self._dog = self._dog, dog
-        if before and before.moving and dog.state == "resting" and not dog.moving:
+        rests = dog.state == "resting" and not dog.moving
+        if rests and before and (before.moving or self._moving):
             self._note(at, "the watchdog reads pulses of rest")
+        self._moving &= not rests  # what an actuator says later was so before
         if before is None or (before.state, before.restarts) == (dog.state, dog.restarts):
             return
         again = ", another actuator is started" if dog.restarts > before.restarts else ""

@@ -107,6 +107,16 @@ def test_a_stranger_is_no_holder_of_every_robots_nodes(name: str) -> None:
     assert presence.holders(Session(keys), "abe", "actuator") == []
 
 
+def test_a_sender_is_a_node_of_a_process() -> None:
+    tokens = [
+        presence.sender_key("abe", 0x7F, "nose"),
+        "robot/abe/live/sender/80",
+        "robot/abe/live/sender/1/2/3/4",
+    ]
+    found = presence.senders(Session(tokens), "abe")  # type: ignore[arg-type]
+    assert found == {"7f": ("abe", "nose", presence.process())}
+
+
 def test_everybody_is_found_by_one_question() -> None:
     name = Name("abe", "lights")
     tokens = [
@@ -115,7 +125,7 @@ def test_everybody_is_found_by_one_question() -> None:
         presence.service_key(name, "nose", "std_srvs/srv/SetBool"),
         presence.endpoint_key(Name("abe", "odom"), "pub", "nose", []),
         presence.endpoint_key(Name("abe", "odom"), "sub", "nose", []),
-        presence.sender_key("abe", 7),
+        presence.sender_key("abe", 7, "nose"),
         "robot/abe/live/node/too/many/parts",
     ]
     session = Session(tokens)

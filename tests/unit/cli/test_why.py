@@ -61,6 +61,16 @@ def test_a_line_for_the_robot_and_one_for_each_layer(monkeypatch: pytest.MonkeyP
     ]
 
 
+def test_a_sender_that_is_spoken_of_is_told_by_its_node_and_process() -> None:
+    desk = node(drive_status=STATUS, why=LAYERS, watchdog=dog())
+    keys = {f"robot/archangel/live/sender/{sender}/desk/mac-7" for sender in ("ff", "a00ff", "10ff", "7")}
+    desk.membership.session.tokens = lambda selector: keys
+    lines = answer(desk).splitlines()
+    assert lines[-3:-1] == ["  who       keyboard 00ff is desk on mac-7"] * 2, (
+        "whose last digits are the same"
+    )
+
+
 def test_a_robot_whose_actuator_is_gone_is_told_by_its_watchdog() -> None:
     lines = answer(node(watchdog=dog(state="resting", why="the actuator is gone: it ended"))).splitlines()
     assert lines[0] == "archangel: no actuator heard"

@@ -172,6 +172,18 @@ def test_a_watchdog_that_reads_rest_is_told() -> None:
     assert told(*words) == ["0.10 watchdog resting: it ended", "0.15 the watchdog reads pulses of rest"]
 
 
+def test_rest_that_a_watchdog_has_read_is_not_told_again_by_the_next_actuator() -> None:
+    lines = [status(0.0, "driving", "", REST), status(0.1, "driving", "", MOVED)]
+    for at, state, moving in ((0.1, "watching", True), (0.2, "resting", False)):
+        lines.append(line(at, "watchdog", {"state": state, "why": "it ended", "moving": moving}))
+    assert told(*lines, status(0.5, "idle", "", REST))[1:] == [
+        "0.10 pulses move: steering 375, throttle 390",
+        "0.20 the watchdog reads pulses of rest",
+        "0.20 watchdog resting: it ended",
+        "0.50 idle: ",
+    ]
+
+
 def test_pulses_are_told_when_they_leave_rest_and_come_back() -> None:
     lines = [status(-3.0, "idle", "", REST), status(-2.0, "idle", "", MOVED), status(-1.0, "idle", "", MOVED)]
     assert told(*lines, status(0.0, "idle", "", REST))[1:] == [
