@@ -230,7 +230,7 @@ class Admission:
             return "link lost", f"{self.interruption.why}{goes_on}"
         if newest is None:
             return self._left.told(self.operator_silence) if self._left else ("idle", "nobody drives")
-        silence = self._sources[newest.source].silence
+        silence = self.silences.of(newest.source)
         fell_silent, unheard = newest.at + silence, newest.beat + silence + HEARD_LATE
         if self.silences.idle(newest, min(now, fell_silent, unheard)):  # the first deadline to pass
             idle = f"no act on {_name(newest)} for {now - newest.acted:.1f} s"
@@ -248,7 +248,7 @@ class Admission:
     def _judge(
         self, source: str, command: Twist | Pwm, proof: Proof | None, moving: bool, now: float
     ) -> Refusal | None:
-        refusal = self.gate.judge(proof, moving, now, self._sources[source].silence)
+        refusal = self.gate.judge(proof, moving, now, self.silences.of(source))
         if refusal is Refusal.NOT_FROM_NEUTRAL and self.holds and not self.holds.pass_by_themselves:
             refusal = Refusal.AT_REST  # whose claim has lapsed meanwhile is not told of a lost link
         if refusal or proof is None:

@@ -49,12 +49,20 @@ class Silences:
     """When a claim is over: nothing more was heard of its sender, or by it, or nobody acts any more."""
 
     def __init__(self, sources: Mapping[str, Source], operator: float) -> None:
-        self._sources = sources
+        self._of = {name: source.silence for name, source in sources.items()}
         self.operator = operator
+
+    def of(self, source: str) -> float:
+        """Return the s without a word of a source's sender, after which it no longer drives."""
+        return self._of[source]
+
+    def shorten(self, source: str, seconds: float) -> None:
+        """Let it be less, between two steps."""
+        self._of[source] = seconds
 
     def silent(self, claim: Claim, now: float) -> bool:
         """Say whether nothing more was heard of a claim's sender, or by its sender."""
-        silence = self._sources[claim.source].silence
+        silence = self._of[claim.source]
         return not (now - claim.at <= silence and now - claim.beat <= silence + HEARD_LATE)
 
     def idle(self, claim: Claim, now: float) -> bool:

@@ -19,6 +19,8 @@ LIMITS = {
     "deadlines.operator": (0.1, "s without an act, after which it rests"),
 }
 """The least of what the settings allow that each may be, as below it nobody can drive; and what it is."""
+SILENCE = (0.4, "s without a word of its sender, after which the robot rests")
+"""the same, of each source"""
 
 
 class LimitParameters:
@@ -32,7 +34,8 @@ class LimitParameters:
         drive.limits = drive.settings.limits.in_numbers(drive.settings.mixer)
         self._widest = bounds(drive)
         kept = self._load()
-        for name, (share, words) in LIMITS.items():
+        silences = {f"sources.{name}.silence": SILENCE for name in drive.settings.known_sources}
+        for name, (share, words) in (LIMITS | silences).items():
             most = self._widest[name]
             value = max(share * most, min(kept.get(name, most), most))
             self._set(name, value)
@@ -54,14 +57,16 @@ class LimitParameters:
         self._note(f"{name} is {value:g}")
         now = bounds(self._drive)
         try:
-            self._file.keep({name: now[name] for name in LIMITS if now[name] != self._widest[name]})
+            self._file.keep({name: now[name] for name in now if now[name] != self._widest[name]})
         except DeviceError as error:
             self._node.log.warn(f"{name} holds, but not across a restart: {error}")
 
     def _set(self, name: str, value: float) -> None:
-        group, _, field = name.partition(".")
+        group, field = name.split(".")[:2]
         if group == "limits":
             self._drive.limits = replace(self._drive.limits, **{field: value})
+        elif group == "sources":
+            self._drive.admission.silences.shorten(field, value)
         else:
             self._drive.admission.operator_silence = value
 
@@ -69,4 +74,6 @@ class LimitParameters:
 def bounds(drive: Drive) -> dict[str, float]:
     """Return what holds now, by the names of the parameters."""
     limits = {f"limits.{name}": value for name, value in asdict(drive.limits).items()}
+    sources, silences = drive.settings.known_sources, drive.admission.silences
+    limits |= {f"sources.{name}.silence": silences.of(name) for name in sources}
     return {**limits, "deadlines.operator": drive.admission.operator_silence}

@@ -37,6 +37,15 @@ def test_each_source_falls_silent_by_its_own_deadline() -> None:
     assert it.select(1.51) is None
 
 
+def test_a_deadline_that_was_shortened_holds_at_once() -> None:
+    silences = Silences(SOURCES, 5.0)
+    it = Mux(SOURCES, silences, link_loss=2.0)
+    it.offer(claim("program", 1.0))
+    silences.shorten("program", 0.2)
+    assert it.select(1.19).source == "program"
+    assert it.select(1.21) is None
+
+
 def test_an_idle_operator_yields() -> None:
     it = mux()
     it.offer(claim("keyboard", 10.0, acted=5.0))

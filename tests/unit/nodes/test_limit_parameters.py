@@ -25,7 +25,8 @@ class Bench:
 
 def test_each_limit_is_a_parameter_that_begins_as_the_settings_say() -> None:
     bench = Bench()
-    assert list(bench.node.parameters) == list(LIMITS)
+    silences = [f"sources.{name}.silence" for name in SETTINGS.known_sources]
+    assert list(bench.node.parameters) == [*LIMITS, *silences]
     values = {name: one.value for name, one in bench.node.parameters.items()}
     assert (values["limits.speed"], values["limits.acceleration"]) == (2.0, 3.0)
     assert values["limits.turn"] == pytest.approx(Ackermann().max_turn)
@@ -84,6 +85,18 @@ def test_a_file_that_cannot_be_read_is_told_of_and_the_settings_hold() -> None:
     assert bench.drive.limits.speed == 2.0
     (words,) = bench.node.warnings
     assert words.startswith("limits that were set before are not known")
+
+
+def test_a_source_may_be_silent_for_less_time_and_never_for_more() -> None:
+    bench = Bench()
+    silences = bench.drive.admission.silences
+    bench.set("sources.program.silence", 0.2)
+    assert (silences.of("program"), silences.of("keyboard")) == (0.2, 0.3)
+    assert bench.shelf.values == {"sources.program.silence": 0.2}
+    for value in (0.51, 0.19):
+        with pytest.raises(ConfigError, match=r"expected 0.2 to 0.5"):
+            bench.set("sources.program.silence", value)
+    assert Bench(bench.shelf).drive.admission.silences.of("program") == 0.2
 
 
 def test_the_time_without_an_act_is_shortened_and_never_lengthened() -> None:
