@@ -12,7 +12,7 @@ from rig import NEUTRAL, ROOT, Process, Rig, Terminal, until
 
 EXAMPLES = ROOT / "examples"
 TESTS = {"test_there_and_back"}
-TRIED = {"publisher", "subscriber", "circle", "keys", "donkeycar", "there_and_back"}
+TRIED = {"publisher", "subscriber", "circle", "keys", "donkeycar", "stranger", "there_and_back"}
 
 
 @pytest.fixture(scope="module")
@@ -45,6 +45,14 @@ def ends(process: Process, by: int) -> None:
 def test_each_program_is_tried_and_told() -> None:
     assert {path.stem for path in EXAMPLES.glob("*.py")} == TRIED | TESTS
     assert set(re.findall(r"\]\((\w+)\.py\)", (EXAMPLES / "README.md").read_text())) == TRIED | TESTS
+
+
+def test_a_node_that_knows_nothing_of_zteleop_hears_the_robot(rig: Rig) -> None:
+    stranger = start(rig, "stranger")
+    stranger.says(f"robot/{rig.robot}/drive_status: ")
+    assert "nobody drives" in stranger.text
+    stranger.signal(signal.SIGINT)
+    stranger.ends()
 
 
 def test_a_program_is_tested_without_a_robot() -> None:
