@@ -109,6 +109,8 @@ def _values(place: Place, typed: list[str], last: str) -> Iterable[str]:
         return _parameters(typed)
     if place.dest == "node":
         return _on_the_bus(typed, lambda graph: _begun(last, [(one.robot, one.node) for one in graph.nodes]))
+    if place.dest == "field":
+        return _on_the_bus(typed, lambda graph: _fields(graph, _known(typed)[1], last))
     known = _types(place.dest)
     if place.dest == "type" and not any(name.startswith(last) for name in known):
         return _on_the_bus(typed, lambda graph: {one.type for one in graph.endpoints})
@@ -124,6 +126,21 @@ def _topics(graph: Any, last: str) -> Iterable[str]:
     own = f"{graph.robot}/"
     plain = [name.removeprefix(own) for name in with_robot if name.startswith(own)]
     return with_robot if not last or any(name.startswith(last) for name in with_robot) else plain
+
+
+def _fields(graph: Any, words: list[str], last: str) -> Iterable[str]:
+    """Return the fields of a topic's type where they were begun: `pose.po`; of a type that all know."""
+    from zteleop.cli._graph import types_of
+    from zteleop.interfaces.declared import message_in
+    from zteleop.messages import MESSAGES
+    from zteleop.messages.message import field_types
+
+    kind = MESSAGES.get(types_of(graph.topic(words[0])[1])[0]) if words else None
+    before, _, _ = last.rpartition(".")
+    for part in before.split(".") if before else ():
+        held = field_types(kind).get(part) if kind else None
+        kind = message_in(held, "") if held is not None else None
+    return [f"{before}.{name}" if before else name for name in field_types(kind)] if kind else ()
 
 
 def _begun(last: str, names: Iterable[tuple[str, str]]) -> Iterable[str]:

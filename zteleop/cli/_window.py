@@ -2,6 +2,7 @@
 
 import argparse
 from collections import deque
+from collections.abc import Iterator, Sequence
 from math import fsum, sqrt
 from typing import NamedTuple
 
@@ -36,6 +37,13 @@ class Window:
         mean = fsum(self.values) / count
         deviation = sqrt(fsum((value - mean) ** 2 for value in self.values) / count)
         return Figures(mean, min(self.values), max(self.values), deviation, count)
+
+
+def table(rows: Sequence[Sequence[str]]) -> Iterator[str]:
+    """Yield rows under the first of them, and an empty line."""
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    head, *rest = ["  ".join(map(str.ljust, row, widths)).rstrip() for row in rows]
+    yield from (head, "=" * len(head), *rest, "")
 
 
 def add_argument(parser: argparse.ArgumentParser, default: int = MOST) -> None:

@@ -1,6 +1,6 @@
 import argparse
 from collections import deque
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from zteleop.bus import clock
 from zteleop.cli import _options, _window
@@ -13,26 +13,30 @@ EXAMPLES = (
 EVERY = 1.0
 """s between two lines"""
 NEWEST = 100
+HEAD = ("topic", "rate", "mean", "min", "max", "messages")
 UNITS = ((1e6, "MB"), (1e3, "KB"), (1.0, "B"))
 """decimal, as ROS writes them"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add(parser)
-    parser.add_argument("topic", help="such as archangel/odom")
+    parser.add_argument("topics", metavar="topic", nargs="+", help="such as archangel/odom; several: a table")
     _window.add_argument(parser, NEWEST)
 
 
 def run(arguments: argparse.Namespace) -> None:
-    with listening("bw", [arguments.topic], arguments) as (ears, (name,)):
-        sizes = Sizes(arguments.window)
-        ears.hear(name, sizes.hear)
+    with listening("bw", arguments.topics, arguments) as (ears, names):
+        sizes = {f"/{name}": Sizes(arguments.window) for name in names}
+        for name in names:
+            ears.hear(name, sizes[f"/{name}"].hear)
 
         def tell() -> None:
-            for line in sizes.lines(clock.now()):
+            now = clock.now()
+            for line in table(sizes, now) if len(sizes) > 1 else next(iter(sizes.values())).lines(now):
                 print(line, flush=True)
 
-        print(f"Subscribed to [/{name}]", flush=True)
+        for topic in sizes:
+            print(f"Subscribed to [{topic}]", flush=True)
         ears.loop.every(EVERY, tell)
         ears.run()
 
@@ -46,17 +50,34 @@ class Sizes:
     def hear(self, arrival: Arrival) -> None:
         self._newest.append((arrival.at, len(arrival.sample.payload)))
 
-    def lines(self, now: float) -> Iterable[str]:
-        """Yield what the newest messages come to, as of now: a topic that falls silent counts ever less."""
+    def figures(self, now: float) -> tuple[str, ...]:
+        """Return what the newest messages come to, as of now: a topic that falls silent counts ever less.
+
+        Their rate, their mean, least and largest size, and how many they are; nothing of less than two.
+        """
         if len(self._newest) < 2 or now <= self._newest[0][0]:
-            return
+            return ()
         sizes = [size for _, size in self._newest]
         rate = sum(sizes) / (now - self._newest[0][0])
         scale, unit = next(((scale, unit) for scale, unit in UNITS if rate >= scale), UNITS[-1])
         digits = 0 if unit == "B" else 2
-        said = [
+        said = (
             f"{value / scale:.{digits}f} {unit}"
             for value in (sum(sizes) / len(sizes), min(sizes), max(sizes))
-        ]
-        yield f"{rate / scale:.{digits}f} {unit}/s from {len(sizes)} messages"
-        yield f"\tMessage size mean: {said[0]} min: {said[1]} max: {said[2]}"
+        )
+        return (f"{rate / scale:.{digits}f} {unit}/s", *said, str(len(sizes)))
+
+    def lines(self, now: float) -> Iterable[str]:
+        """Yield the figures in the words of ROS."""
+        if found := self.figures(now):
+            rate, mean, least, largest, count = found
+            yield f"{rate} from {count} messages"
+            yield f"\tMessage size mean: {mean} min: {least} max: {largest}"
+
+
+def table(sizes: Mapping[str, Sizes], now: float) -> Iterable[str]:
+    """Yield a table of all topics, once one of them was heard."""
+    found = {topic: one.figures(now) for topic, one in sizes.items()}
+    if any(found.values()):
+        none = ("not heard", *[""] * (len(HEAD) - 2))
+        yield from _window.table([HEAD, *((topic, *(row or none)) for topic, row in found.items())])

@@ -1,6 +1,7 @@
 import argparse
 import time
 from collections.abc import Iterable, Mapping
+from functools import partial
 from typing import Any
 
 from zteleop.bus import codec
@@ -13,31 +14,38 @@ EXAMPLES = (
     "zteleop delay odom",
     "zteleop delay archangel/odom --window 100",
 )
+HEAD = ("topic", "delay", "min", "max", "std_dev", "window")
 EVERY = 1.0
 """s between two lines"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add(parser)
-    parser.add_argument("topic", help="such as archangel/odom; its messages must say when they were made")
+    parser.add_argument(
+        "topics",
+        metavar="topic",
+        nargs="+",
+        help="such as archangel/odom, whose messages say when they were made; several: a table",
+    )
     _window.add_argument(parser)
 
 
 def run(arguments: argparse.Namespace) -> None:
-    with listening("delay", [arguments.topic], arguments) as (ears, (name,)):
-        delays, complaints = Delays(arguments.window), Complaints()
+    with listening("delay", arguments.topics, arguments) as (ears, names):
+        delays, complaints = {f"/{name}": Delays(arguments.window) for name in names}, Complaints()
 
-        def hear(arrival: Arrival) -> None:
+        def hear(topic: str, arrival: Arrival) -> None:
             try:
-                delays.hear(arrival, time.time())
+                delays[topic].hear(arrival, time.time())
             except MessageError as error:
                 complaints.tell(f"{arrival.sample.key}: {error}")
 
         def tell() -> None:
-            for line in delays.lines():
+            for line in table(delays) if len(delays) > 1 else next(iter(delays.values())).lines():
                 print(line, flush=True)
 
-        ears.hear(name, hear)
+        for name in names:
+            ears.hear(name, partial(hear, f"/{name}"))
         ears.loop.every(EVERY, tell)
         ears.run()
 
@@ -55,7 +63,22 @@ class Delays:
         self._window.add(today - _stamp(values))
         self._new = True
 
+    @property
+    def row(self) -> tuple[str, ...]:
+        """What a table says of them."""
+        new, self._new = self._new, False
+        if not (found := self._window.figures) or not new:
+            return ("silent" if found else "not heard", *[""] * (len(HEAD) - 2))
+        times = (found.mean, found.least, found.largest)
+        return (*(f"{value:.3f}" for value in times), f"{found.deviation:.5f}", str(found.messages))
+
+    @property
+    def heard(self) -> bool:
+        """Anything has been said at all."""
+        return self._window.figures is not None
+
     def lines(self) -> Iterable[str]:
+        """Yield what they come to, in the words of ROS."""
         if not (found := self._window.figures):
             return
         if not self._new:
@@ -67,6 +90,12 @@ class Delays:
             f"\tmin: {found.least:.3f}s max: {found.largest:.3f}s std dev: {found.deviation:.5f}s "
             f"window: {found.messages}"
         )
+
+
+def table(delays: Mapping[str, Delays]) -> Iterable[str]:
+    """Yield a table of all topics, once one of them was heard."""
+    if any(one.heard for one in delays.values()):
+        yield from _window.table([HEAD, *((topic, *one.row) for topic, one in delays.items())])
 
 
 def _stamp(values: Any) -> float:

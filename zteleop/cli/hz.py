@@ -75,10 +75,7 @@ def _table(paces: dict[str, Pace]) -> Iterable[str]:
     """Yield a table of all topics that have been heard, once there is one."""
     if not any(pace.gaps.values for pace in paces.values()):
         return
-    rows = [HEAD, *(_row(topic, pace) for topic, pace in paces.items())]
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    head, *rest = ["  ".join(map(str.ljust, row, widths)).rstrip() for row in rows]
-    yield from (head, "=" * len(head), *rest, "")
+    yield from _window.table([HEAD, *(_row(topic, pace) for topic, pace in paces.items())])
 
 
 def _row(topic: str, pace: Pace) -> tuple[str, ...]:

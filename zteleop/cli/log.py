@@ -23,6 +23,7 @@ COLORS = {Log.WARN: "33", Log.ERROR: "31", Log.FATAL: "1;31"}
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add(parser)
     parser.add_argument("--level", choices=[*LEVELS], default="info", help="nothing less than that (info)")
+    parser.add_argument("-f", "--follow", action="store_true", help="what it does anyway: it goes on")
     parser.add_argument("--node", metavar="NAME", action="append", help="only of that node; may be repeated")
 
 

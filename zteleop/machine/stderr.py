@@ -67,12 +67,30 @@ def _stand_back() -> None:
             os.sched_setscheduler(0, os.SCHED_OTHER, os.sched_param(0))
 
 
+_PRIORITIES = {"debug": 7, "info": 6, "warning": 4, "error": 3, "fatal": 2}
 _writer = LineWriter(2)
+
+
+def in_journal() -> bool:
+    """Say whether stderr goes to systemd's journal, by what it says of it and what the file is."""
+    with suppress(OSError):
+        file = os.fstat(2)
+        return os.environ.get("JOURNAL_STREAM") == f"{file.st_dev}:{file.st_ino}"
+    return False
+
+
+def with_priority(line: str) -> str:
+    """Return a line of a log as the journal reads it, which takes its level from the front (sd-daemon(3))."""
+    word = (line.split(": ", 2)[1:2] or [""])[0]
+    return f"<{_PRIORITIES[word]}>{line}" if word in _PRIORITIES else line
 
 
 def tell(line: str) -> None:
     """Say a line on stderr, soon."""
-    _writer.tell(line)
+    _writer.tell(with_priority(line) if _in_journal else line)
+
+
+_in_journal = in_journal()
 
 
 def flush() -> None:

@@ -52,6 +52,36 @@ def test_several_topics_are_a_table_with_those_that_are_silent() -> None:
     assert list(hz._table({"/abe/odom": pace(1.0)})) == []
 
 
+def test_the_bytes_of_several_topics_are_a_table() -> None:
+    sizes = {"/abe/odom": bw.Sizes(10), "/abe/why": bw.Sizes(10)}
+    assert list(bw.table(sizes, 1.0)) == []
+    for at in (0.0, 0.5):
+        sizes["/abe/odom"].hear(Arrival(at, put("odom", b"0123456789")))
+    assert list(bw.table(sizes, 1.0)) == [
+        "topic      rate       mean  min  max  messages",
+        "==============================================",
+        "/abe/odom  20 B/s     10 B  10 B  10 B  2",
+        "/abe/why   not heard",
+        "",
+    ]
+
+
+def test_the_ages_of_several_topics_are_a_table() -> None:
+    delays = {"/abe/odom": delay.Delays(10), "/abe/why": delay.Delays(10)}
+    assert list(delay.table(delays)) == []
+    delays["/abe/odom"].hear(
+        Arrival(0.0, sample(TwistStamped(Header(Time(100, 0), ""), Twist.zero()))), 100.25
+    )
+    assert list(delay.table(delays)) == [
+        "topic      delay      min    max    std_dev  window",
+        "===================================================",
+        "/abe/odom  0.250      0.250  0.250  0.00000  1",
+        "/abe/why   not heard",
+        "",
+    ]
+    assert list(delay.table(delays))[2].split() == ["/abe/odom", "silent"]
+
+
 @pytest.mark.parametrize(
     ("size", "count", "lines"),
     [

@@ -1,13 +1,42 @@
 """With real pipes: what matters is what the kernel does when nobody reads."""
 
 import os
+import subprocess
 import sys
 import threading
 import time
 
 import pytest
 
-from zteleop.machine.stderr import LINES, LineWriter
+from zteleop.machine.stderr import LINES, LineWriter, with_priority
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("actuator: info: obeys", "<6>actuator: info: obeys"),
+        ("door: error: it ends: badly", "<3>door: error: it ends: badly"),
+        ("actuator: warning: late", "<4>actuator: warning: late"),
+        ("anything: else", "anything: else"),
+        ("", ""),
+    ],
+)
+def test_the_journal_reads_a_level_in_front(line: str, told: str) -> None:
+    assert with_priority(line) == told
+
+
+@pytest.mark.parametrize("journal", [True, False])
+def test_a_level_stands_in_front_only_where_stderr_is_the_journals(journal: bool) -> None:
+    ear, mouth = os.pipe()
+    file = os.fstat(mouth)
+    stream = f"{file.st_dev}:{file.st_ino if journal else 1}"
+    code = "from zteleop.machine import stderr; stderr.tell('door: error: ends'); stderr.flush()"
+    subprocess.run(
+        [sys.executable, "-c", code], stderr=mouth, env=os.environ | {"JOURNAL_STREAM": stream}, check=True
+    )
+    os.close(mouth)
+    assert os.read(ear, 100) == (b"<3>door: error: ends\n" if journal else b"door: error: ends\n")
+    os.close(ear)
 
 
 def test_lines_are_written_in_their_order() -> None:
