@@ -18,6 +18,7 @@ OBEYED_FOR = SOURCES["program"].silence
 PAUSE, TOO_SLOW = 5.0, 2
 """s that are no stream any more, and how many gaps in a row make a slow one"""
 ANEW = "when whoever watches the robot wants it to move, start this anew (a program may let_go())"
+LET_GO = "let go of everything, and begin anew when it is free"
 ADVICE: dict[str, str] = {
     Refusal.EARLIER_START: ANEW,
     Refusal.NOT_FROM_NEUTRAL: ANEW,
@@ -58,7 +59,7 @@ class Answer:
         self._moved = NEVER
         self._slow = 0
         """How often in a row it was moved on too late."""
-        self._advises_turns = is_program  # who holds an input steers before driving off
+        self._is_program = is_program  # who holds an input steers before driving off
 
     @property
     def refused(self) -> str:
@@ -81,8 +82,8 @@ class Answer:
         if not moving:
             if asks_in_vain(message):
                 self._log.warn(f"what is said on {self._topic} moves nothing: {IN_VAIN}")
-        elif self._advises_turns and steers:
-            self._advises_turns = False
+        elif self._is_program and steers:
+            self._is_program = False
             self._log.warn(
                 f"what is said on {self._topic} turns front wheels and moves nothing: {STEERS_ONLY}"
             )
@@ -130,7 +131,8 @@ class Answer:
     def _find(self, told: Refusals) -> tuple[str, str]:
         why = next((refused.why for refused in told.refused if refused.sender == self._sender), "")
         rest = f" ({told.rest})" if why and told.rest else ""
-        return why + rest, ADVICE.get(why, "")
+        advice = ADVICE.get(why, "")
+        return why + rest, LET_GO if advice is ANEW and not self._is_program else advice
 
     def _tell(self, words: str, advice: str) -> None:
         before, self._words = self._words, words

@@ -27,6 +27,8 @@ class Said(Struct):
     """when there was reason to, last"""
     pause: float
     """s from one sentence to the next"""
+    held: int = 0
+    """how often it was not told since"""
 
 
 class NodeLog:
@@ -69,15 +71,18 @@ class NodeLog:
         lately = sum(now - one.told < FORGOTTEN_AFTER for one in self._said.values())
         if said:
             said.last = now
-        if (said and now - said.told < said.pause) or (
-            not said and level == Log.WARN and lately >= _A_SECOND
-        ):
+        if said and now - said.told < said.pause:
+            said.held += 1
+            return
+        if not said and level == Log.WARN and lately >= _A_SECOND:
             self._held_back += 1
             return
+        text = printable(text[:500])
+        if said and said.held:
+            text += f" (and {said.held} time{'s'[: said.held - 1]} more since that was told last)"
+        if level == Log.WARN and self._held_back:
+            text += f" ({self._held_back} other warnings left out)"
+            self._held_back = 0
         self._said[subject] = Said(now, now, min(2 * said.pause, LONGEST_PAUSE) if said else FORGOTTEN_AFTER)
-        text = printable(text[:500]) + (
-            f" ({self._held_back} other lines left out)" if self._held_back else ""
-        )
-        self._held_back = 0
         self._publish(Log(clock.stamp(), level, self._name, text, "", "", 0))
         self.show(f"{self._name}: {_WORDS[level]}: {text}")

@@ -249,7 +249,7 @@ class Node:
 
     def _serve_types(self, robot: str, tell: Callable[[GetTypeRequest], GetTypeResponse]) -> None:
         name = Name(robot, f"{self.name}/{SERVICE}")
-        self._services.add(name, GetTypeRequest, GetTypeResponse, tell, stands=False)
+        self._services.add(name, GetTypeRequest, GetTypeResponse, tell, stands=False, at_once=True)
 
     def every(self, period: float) -> Callable[[Callable[[], object]], Callable[[], object]]:
         """Decorate a function to run every `period` seconds in `spin`."""

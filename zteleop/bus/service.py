@@ -49,14 +49,17 @@ class Services:
         handler: Callable[[Any], Message],
         *,
         stands: bool = True,
+        at_once: bool = False,
     ) -> None:
         """Answer what is asked under a name; others are told of it, unless something else `stands` for it.
 
+        With `at_once` in the thread that brings the question, whatever the node does: of what never changes.
         Raises ConfigError for types that are not of one service.
         """
         ros_type = service_type_of(request, response)
         service = Service(name, request, response, handler)
-        self._session.serve(service_key(name), lambda question: self._take(service, question))
+        take = self._reply if at_once else self._take
+        self._session.serve(service_key(name), lambda question: take(service, question))
         if stands:
             self._session.declare_token(presence.service_key(name, self._node, ros_type))
 
@@ -71,7 +74,9 @@ class Services:
             question.refuse(BUSY)
 
     def _answer_next(self) -> None:
-        service, question = self._waiting.popleft()
+        self._reply(*self._waiting.popleft())
+
+    def _reply(self, service: Service, question: Question) -> None:
         try:
             payload = self._answer(service, question)
         except MessageError as error:

@@ -6,6 +6,7 @@ from zteleop.bus import clock, presence
 from zteleop.bus.loop import Loop
 from zteleop.bus.names import Name
 from zteleop.bus.session import Session
+from zteleop.errors import nearest
 
 SPEAKERS = 100
 """of one topic that are remembered"""
@@ -25,6 +26,7 @@ class Speakers:
     ) -> None:
         selector = f"robot/{name.robot}/live/pub/*/*/*/{name.path}"
         self._tokens = presence.Tokens(session, selector, SPEAKERS)
+        self._session = session
         self._name = name
         self._tell = tell
         self._tell_again = tell_again
@@ -37,6 +39,12 @@ class Speakers:
         alarm = loop.alarm(lambda: alarm.ring_at(self._look()))
         alarm.ring_at(clock.now() + LOOK_EVERY)
 
+    def _meant(self) -> str:
+        """Return the topic that may have been meant, of those that this robot has."""
+        there = {one.topic for one in presence.endpoints(self._session) if one.robot == self._name.robot}
+        near = nearest(self._name.path, there)
+        return f"; {near}" if near.startswith("did you mean") else ""
+
     def _look(self) -> float:
         """Look who has come and gone; return when to look again."""
         there = bool(self._tokens.there())
@@ -46,5 +54,8 @@ class Speakers:
         self._ever |= there
         if self._missed == LOOKS:
             more = " any more" if self._ever else ""
-            self._tell(f"nobody publishes {self._name}{more} (zteleop list shows what is said, and by whom)")
+            hint = "" if self._ever else self._meant()
+            self._tell(
+                f"nobody publishes {self._name}{more}{hint} (zteleop list shows what is said, and by whom)"
+            )
         return clock.now() + LOOK_EVERY

@@ -98,11 +98,13 @@ def _others(name: Name, kind: Kind, endpoints: list[Endpoint], unreached: Sequen
     if name.robot not in robots:
         return f"; robot {name.robot} is not heard; {who_is_here(robots, name.robot, unreached)}"
     topics = {topic_of(one.topic).name for one in others if (one.robot, one.kind) == (name.robot, kind)}
-    near = nearest(name.path, topics | TOPICS.keys())
-    of_ones_own = kind == "sub" and not near.startswith("did you mean")  # whoever hears it is yet to come
-    if topic_of(name.path).types or not topics or of_ones_own:
+    if topic_of(name.path).types or not topics:
         return " now"
-    return f"; {near}"
+    near = nearest(name.path, topics | TOPICS.keys())
+    if near.startswith("did you mean"):
+        return f"; {near}"
+    # Whoever hears a topic of somebody's own is yet to come; whoever waits for one is told what there is.
+    return " now" if kind == "sub" else f"; {nearest(name.path, topics)}"
 
 
 def _people(endpoints: Iterable[Endpoint]) -> str:

@@ -3,6 +3,7 @@
 from typing import Any, Generic, TypeVar
 
 from zteleop.bus import clock
+from zteleop.interfaces.defaults import with_defaults
 from zteleop.interfaces.values import fill
 from zteleop.messages import Message
 from zteleop.messages.message import plain
@@ -21,14 +22,17 @@ class Draft(Generic[M]):
         if isinstance(values, str) and ":" in values:  # in quotes, as `interface proto` prints it
             values = yaml_text.load(values)
         self._values = values
-        self._message = fill(kind, dated(self._values, {"sec": 0, "nanosec": 0}))
+        self._message = self._filled({"sec": 0, "nanosec": 0})
         self._has_date = dated(self._values, None) != self._values
 
     def make(self) -> M:
         """Return the message, of this moment where it says so."""
         if self._has_date:
-            self._message = fill(self._kind, dated(self._values, plain(clock.stamp())))
+            self._message = self._filled(plain(clock.stamp()))
         return self._message
+
+    def _filled(self, now: Any) -> M:
+        return fill(self._kind, with_defaults(self._kind, dated(self._values, now)))
 
 
 def dated(values: Any, now: Any) -> Any:

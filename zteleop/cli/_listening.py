@@ -189,7 +189,7 @@ def listening(
     Raises ConfigError for a name that is none, or could be several robots'.
     """
     settings = _options.load(arguments)
-    robots = [_options.robot_of(topic, settings) for topic in topics]
+    robots = [_options.robot_of(topic, settings, arguments.robot) for topic in topics]
     with ExitStack() as afterwards, open_session(settings.bus, settle=settle or None in robots) as session:
         selected = _options.find_robot(session, settings) if None in robots else None
         ears = Listening(verb, session)

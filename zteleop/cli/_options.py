@@ -131,12 +131,18 @@ def own_robot() -> str:
     return robot
 
 
-def robot_of(topic: str, settings: Config) -> str | None:
-    """Return the robot that a topic's name says, else the one selected, if any."""
+def robot_of(topic: str, settings: Config, typed: str | None = None) -> str | None:
+    """Return the robot that a topic's name says, else the one selected, if any.
+
+    Raises ConfigError where --robot was typed, and is another.
+    """
     try:
-        return resolve(topic, settings.robot).robot
+        found = resolve(topic, settings.robot).robot
     except ConfigError:
         return settings.robot
+    if typed not in (None, found):
+        raise ConfigError(f"{topic} is a topic of {found}, and --robot says {typed}; leave one of them out")
+    return found
 
 
 def join(name: str, settings: Config, patient: bool = False) -> "Node":

@@ -36,6 +36,6 @@ def _unknown(words: list[str], parser: argparse.ArgumentParser) -> str:
     if typed.startswith("--qos"):
         return f"no option {typed}: of QoS there is nothing to choose here"
     known = [option for option in parser.format_help().replace(",", " ").split() if option.startswith("--")]
-    if typed and (near := get_close_matches(typed, sorted(set(known)), 1)):
+    if typed and (near := get_close_matches(typed, sorted(set(known)), 1, 0.8)):
         return f"no option {typed}; did you mean {near[0]}?"
     return f"unrecognized arguments: {' '.join(words)}"

@@ -3,6 +3,8 @@ import argparse
 from zteleop.bus.escape import printable
 from zteleop.cli import _options
 from zteleop.cli._types import find_type
+from zteleop.interfaces.defaults import with_defaults
+from zteleop.interfaces.values import fill
 from zteleop.messages.message import plain
 from zteleop.text.rendering import to_yaml
 
@@ -21,5 +23,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> None:
     kind = find_type(arguments.type, _options.load(arguments).bus)
-    text = printable(to_yaml(plain(kind.zero())), keep="\n")
+    text = printable(to_yaml(plain(fill(kind, with_defaults(kind, {})))), keep="\n")
     print(f'"{text}"')

@@ -76,7 +76,7 @@ def run(arguments: argparse.Namespace) -> None:
     kind = find_type(arguments.type, settings.bus)
     draft = Draft(kind, arguments.values)
     times = 1 if arguments.once else arguments.times
-    robot = _options.robot_of(arguments.topic, settings)
+    robot = _options.robot_of(arguments.topic, settings, arguments.robot)
     # A late command is worse than none; whatever else is said so many times is to be heard so often.
     patient = times is not None and not _is_command(arguments.topic, robot)
     with _options.join("pub", msgspec.structs.replace(settings, robot=robot), patient) as node:

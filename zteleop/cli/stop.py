@@ -28,7 +28,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add(parser)
     _options.add_robot(parser)
     parser.add_argument(
-        "--release", action="store_true", help="end your stop: it may drive again, from neutral"
+        "--release",
+        action="store_true",
+        help="end your stop: whatever it stopped may drive again, from neutral",
     )
     parser.add_argument("--all", action="store_true", help="every robot; with --release, everybody's stops")
     parser.add_argument("--why", metavar="TEXT", default="", help="a reason, for others to read")
@@ -40,9 +42,7 @@ def run(arguments: argparse.Namespace) -> int:
     settle = every or settings.robot is None
     if arguments.release:
         with _options.join_for_any("stop", settings, settle=settle) as node:
-            robot = _options.find_robot(node.membership.session, settings)
-            print(printable(release(node, robot, arguments.all)))
-            return 0
+            return release_each(node, _robots(node, settings, settings.robot is None), arguments.all)
     with Call(settings.bus) as lane:
         stops = Stops(lane, arguments.why)
         if settings.robot:
@@ -137,6 +137,20 @@ class Stops:
                 self._told.add(robot)
                 _tell(stopping)
         return len(self._told) == len(self._asked) and not any(s.repeats(now) for s in self._asked.values())
+
+
+def release_each(node: Node, robots: list[str], everybodys: bool) -> int:
+    """Release robots, who were stopped by one word as well; return 1 when one of them is not."""
+    failed = 0
+    for robot in robots:
+        try:
+            print(printable(release(node, robot, everybodys)), flush=True)
+        except BusError as error:
+            if len(robots) == 1:
+                raise
+            failed = 1
+            print(printable(f"zteleop stop: {error}"), file=sys.stderr, flush=True)
+    return failed
 
 
 def release(node: Node, robot: str, everybodys: bool = False) -> str:

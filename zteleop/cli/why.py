@@ -15,6 +15,7 @@ EXAMPLES = (
     "zteleop why",
     "zteleop why archangel",
 )
+PAST = "; what happened before: zteleop blackbox, on the robot"
 HEARD_WITHIN = 2.0
 TELL_AFTER = 1.0
 """s of that until it says for whom it waits"""
@@ -48,7 +49,9 @@ def answer(node: Node) -> str:
         print(printable(f"zteleop why: waits for {node.robot}; {here}"), file=sys.stderr, flush=True)
     node.membership.until(complete, HEARD_WITHIN - TELL_AFTER)
     if status is None and dog is None:
-        raise BusError(f"no actuator of {node.robot} is heard within {HEARD_WITHIN:g} s; is it on? {here}")
+        raise BusError(
+            f"no actuator of {node.robot} is heard within {HEARD_WITHIN:g} s; is it on? {here}{PAST}"
+        )
     lines = [
         f"{node.robot} is {status.state}: {status.why}" if status else f"{node.robot}: no actuator heard"
     ]

@@ -99,6 +99,7 @@ class Stopping:
             self._before = _ids(status.stops)
         if status and self._engages and self._shown:
             self.is_over |= not self._shows(status)
+        self.is_over |= self.state != "pending" and status is not None and status.state == "driving"
         if self.state == "pending":
             self._go_on(status, now)
         elif self.unanswered and status and not self.repeats(now) and not status.stops:

@@ -160,7 +160,8 @@ def read(path: Path) -> Recording:
     try:
         data, trouble = _unpack(path)
     except OSError as error:
-        raise ConfigError(f"cannot read {path}: {error.strerror or error}") from None
+        gone = f"; of each reason the {KEPT} newest are kept" if isinstance(error, FileNotFoundError) else ""
+        raise ConfigError(f"cannot read {path}: {error.strerror or error}{gone}") from None
     first, *rest = data.split(b"\n")
     try:
         header = msgspec.json.decode(first, type=Header)

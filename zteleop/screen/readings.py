@@ -1,6 +1,6 @@
 """What an operator reads, from the top line down, and on a single line."""
 
-from zteleop.control.hold import HOLDS
+from zteleop.control.hold import HOLDS, PAUSE
 from zteleop.screen.bars import bar_lines
 from zteleop.screen.dashboard import WIDE, Dashboard, Line, labelled, line
 from zteleop.screen.heading import heading, state
@@ -71,6 +71,8 @@ def idle(d: Dashboard, columns: int) -> Line:
         return labelled(7, "idle", "nobody hears what is asked", columns, "dim")
     if d.idle_left is None:
         return labelled(7, "idle", "you ask for nothing", columns, "dim")
+    if d.status.state == PAUSE:
+        return labelled(7, "idle", "at rest: the link was lost", columns, "dim")
     if d.status.state in HOLDS:
         return labelled(7, "idle", f"at rest: it is {d.status.state}", columns, "dim")
     words = f"neutral in {d.idle_left:.1f} s" if columns >= 28 else f"{d.idle_left:.1f} s left"

@@ -166,6 +166,18 @@ def test_who_asks_for_what_no_wheels_do_is_told(sender: Sender) -> None:
     )
 
 
+@pytest.mark.parametrize(
+    ("is_program", "advice"),
+    [(True, "start this anew (a program may let_go())"), (False, "let go of everything, and begin anew")],
+)
+def test_who_is_refused_is_told_what_it_can_do(clock: Clock, is_program: bool, advice: str) -> None:
+    sender = Sender(clock, is_program)
+    sender.refuse(Refusal.BEFORE_RELEASE)
+    sender.say()
+    (line,) = sender.news
+    assert advice in line
+
+
 @pytest.mark.parametrize(("is_program", "told"), [(True, 1), (False, 0)])
 def test_a_program_that_turns_a_car_on_the_spot_is_told_once(
     clock: Clock, is_program: bool, told: int

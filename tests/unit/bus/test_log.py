@@ -44,14 +44,23 @@ def test_what_goes_on_is_spoken_of_ever_more_seldom_and_what_was_held_back_is_co
         clock.pass_by(0.1)
     assert ears.texts == [
         "smells odd 0",
-        "smells odd 10 (9 other lines left out)",
-        "smells odd 30 (19 other lines left out)",
-        "smells odd 70 (39 other lines left out)",
+        "smells odd 10 (and 9 times more since that was told last)",
+        "smells odd 30 (and 19 times more since that was told last)",
+        "smells odd 70 (and 39 times more since that was told last)",
     ]
     clock.pass_by(1.0)
     ears.log.warn("smells again", "smell")
     ears.log.warn("smells again", "smell")
-    assert ears.texts[4:] == ["smells again (9 other lines left out)"]
+    assert ears.texts[4:] == ["smells again"], "what was quiet is news"
+
+
+def test_what_was_held_back_of_one_thing_is_said_of_no_other(ears: Ears, clock: Clock) -> None:
+    for number in range(15):
+        ears.log.warn("smells odd", f"smell {number}")
+    ears.log.info("all is well")
+    clock.pass_by(1.0)
+    ears.log.warn("on fire")
+    assert ears.texts[10:] == ["all is well", "on fire (5 other warnings left out)"]
 
 
 def test_however_long_it_goes_on_it_is_told_twice_a_minute(ears: Ears, clock: Clock) -> None:

@@ -60,6 +60,14 @@ def test_a_question_is_answered_in_the_loop_and_not_before(desk: Desk) -> None:
     assert desk.answers == [(codec.encode(YES), "application/json;std_srvs/srv/SetBool_Response")]
 
 
+def test_what_never_changes_is_answered_whatever_the_node_does(desk: Desk) -> None:
+    desk.services.add(LIGHTS, SetBoolRequest, SetBoolResponse, lambda asked: YES, at_once=True)
+    desk.ask(b'{"data": true}')
+    assert desk.answers == [(codec.encode(YES), "application/json;std_srvs/srv/SetBool_Response")]
+    desk.ask(b'{"data": 7}')
+    assert len(desk.refusals) == 1
+
+
 def test_others_are_told_which_service_there_is_and_of_which_type(desk: Desk) -> None:
     desk.add(lambda asked: YES)
     desk.services.add(

@@ -44,6 +44,11 @@ def test_who_waits_in_vain_is_told_within_two_seconds_and_once(desk: Desk) -> No
     assert desk.after(10) == []
 
 
+def test_who_waits_for_a_name_that_is_nearly_one_is_asked(desk: Desk) -> None:
+    desk.session.alive = [SIM.replace("odom", "odo"), SIM.replace("/abe/", "/zoe/")]
+    assert desk.after(2) == [NOBODY.replace(" (zteleop", "; did you mean odo? (zteleop")]
+
+
 def test_where_somebody_speaks_nothing_is_said(desk: Desk) -> None:
     assert desk.after(10, SIM, OTHER) == []
     assert desk.after(10, SIM, is_put=False) == [], "the other is there"

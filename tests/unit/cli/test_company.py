@@ -46,6 +46,7 @@ def test_a_commands_sources_and_names_are_one_topic() -> None:
         ("abe/odmo", "nobody publishes it; did you mean odom?"),
         ("abe/cmdvel", "nobody publishes it; did you mean cmd_vel?"),
         ("abe/cmd_vel", "nobody publishes it now"),
+        ("abe/rosout", "nobody publishes it; known: log, odom"),
         (
             "abee/odom",
             "nobody publishes it; robot abee is not heard; heard here: abe, zoe; did you mean abe?",

@@ -2,7 +2,7 @@ import pytest
 
 from zteleop.cli._draft import Draft, dated
 from zteleop.errors import MessageError
-from zteleop.messages import String, Time, Twist, TwistStamped
+from zteleop.messages import PoseStamped, Quaternion, String, Time, Twist, TwistStamped
 
 
 @pytest.fixture(autouse=True)
@@ -24,6 +24,14 @@ def test_a_stamp_is_of_the_moment_at_which_it_is_said(text: str) -> None:
     first, second = draft.make(), draft.make()
     assert (first.header.stamp, second.header.stamp) == (Time(101, 5), Time(102, 5))
     assert first.header.frame_id == ("base" if "base" in text else "")
+
+
+def test_what_is_left_out_is_what_ros_makes_of_it() -> None:
+    assert Draft(PoseStamped, "{}").make().pose.orientation == Quaternion(0.0, 0.0, 0.0, 1.0)
+    turned = Draft(PoseStamped, "{pose: {orientation: {z: 1.0, w: 0.0}}}").make().pose.orientation
+    assert turned == Quaternion(0.0, 0.0, 1.0, 0.0)
+    with pytest.raises(MessageError, match=r"pose\.orientation"):
+        Draft(PoseStamped, "{pose: {orientation: 3}}")
 
 
 def test_a_text_in_quotes_is_read_as_what_it_says() -> None:

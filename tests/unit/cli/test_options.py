@@ -99,6 +99,14 @@ def test_the_robot_of_a_topic_is_the_one_it_says(topic: str, selected: str | Non
     assert _options.robot_of(topic, Config(robot=selected)) == robot
 
 
+def test_a_topic_of_another_robot_than_was_typed_is_refused() -> None:
+    words = "/abe/odom is a topic of abe, and --robot says bob; leave one of them out"
+    with pytest.raises(ConfigError, match=words):
+        _options.robot_of("/abe/odom", Config(robot="bob"), "bob")
+    assert _options.robot_of("/abe/odom", Config(robot="bob")) == "abe", "whatever a file says"
+    assert _options.robot_of("odom", Config(robot="bob"), "bob") == "bob"
+
+
 def test_a_robot_that_cannot_be_chosen_leaves_the_bus(monkeypatch: pytest.MonkeyPatch) -> None:
     bus = session("abe", "bob")
     monkeypatch.setattr(_options, "open_session", lambda settings, settle, patient: bus)

@@ -110,6 +110,7 @@ def test_a_wrong_argument_is_a_usage_error(capsys: pytest.CaptureFixture[str]) -
         ("pub", "cmd_vel Twist --rote 5", "no option --rote; did you mean --rate?"),
         ("pub", "cmd_vel Twist --rote=5", "no option --rote; did you mean --rate?"),
         ("keyboard", "--keymapp wasd", "no option --keymapp; did you mean --keymap?"),
+        ("stop", "--reason x", "unrecognized arguments: --reason"),  # never --release
         ("echo", "odom --qos-depth 5", "no option --qos-depth: of QoS there is nothing to choose here"),
         ("keyboard", "--zebra wasd", "unrecognized arguments: --zebra wasd"),
     ],

@@ -298,3 +298,37 @@ def test_what_a_stranger_says_cannot_steer_the_terminal(
     code, out, _ = typed(latch, "--release")
     assert code == 0
     assert out == "the stop of archangel is over, but it is kept at rest: \\u001b[2Jevil\n"
+
+
+def test_what_one_word_stopped_one_word_releases(
+    clock: Clock, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    answers = {"abe": "abe is released", "bob": "bob is not stopped", "zoe": BusError("zoe is not heard")}
+
+    def release(node: object, robot: str, everybodys: bool) -> str:
+        answer = answers[robot]
+        if isinstance(answer, BusError):
+            raise answer
+        return answer
+
+    monkeypatch.setattr(verb, "release", release)
+    node = Robot(clock, None)
+    assert verb.release_each(node, ["abe", "bob"], False) == 0  # type: ignore[arg-type]
+    assert capsys.readouterr() == ("abe is released\nbob is not stopped\n", "")
+    assert verb.release_each(node, ["zoe", "abe"], False) == 1  # type: ignore[arg-type]
+    assert capsys.readouterr() == ("abe is released\n", "zteleop stop: zoe is not heard\n")
+    with pytest.raises(BusError):
+        verb.release_each(node, ["zoe"], False)  # type: ignore[arg-type]
+
+
+def test_a_release_that_names_nobody_is_for_all_that_are_heard(
+    latch: Latch, typed: Type, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[str] = []
+    monkeypatch.setattr(verb, "release", lambda node, robot, everybodys: asked.append(robot) or robot)
+    typed(latch, "--release")
+    monkeypatch.setattr(presence, "robots", lambda session: ["archangel", "michael"])
+    monkeypatch.setattr(_options, "join_for_any", lambda name, settings, settle: Robot(Clock(), latch))
+    assert run_verb("stop", "stop a robot", ["--release"]) == 0
+    assert run_verb("stop", "stop a robot", ["--release", "michael"]) == 0
+    assert asked == ["archangel", "archangel", "michael", "michael"]

@@ -82,6 +82,19 @@ def test_a_stop_is_said_at_once_and_twenty_times_a_second_until_it_is_shown(aske
     assert asker.outcome == ("done", "archangel is stopped (neutral read back from the chip within 1010 ms)")
 
 
+def test_what_was_answered_is_over_once_it_drives(asker: Asker) -> None:
+    stop = asker.engage()
+    asker.heed(shows("driving"))
+    assert not asker.stopping.is_over, "it has yet to hear of it"
+    asker.heed(stopped(stop.id))
+    assert not asker.stopping.is_over
+    asker.release(stopped(stop.id))
+    asker.heed(idle())
+    assert (asker.stopping.state, asker.stopping.is_over) == ("done", False)
+    asker.heed(shows("driving"))
+    assert asker.stopping.is_over
+
+
 def test_a_stop_is_said_for_three_seconds_also_after_the_answer(asker: Asker) -> None:
     stop = asker.engage()
     asker.heed(stopped(stop.id))

@@ -23,6 +23,13 @@ def test_nothing_counts_down_where_no_robot_is_heard(car):
     assert not any("neutral in" in line for line in shown)
 
 
+def test_nothing_counts_down_where_the_link_was_lost(car):
+    lost = status()
+    lost.state = "link lost"
+    shown = texts(readings(dashboard("step", car, idle_left=3.2, status=lost), 80, True))
+    assert "idle      at rest: the link was lost" in shown
+
+
 def test_a_place_that_is_told_no_more_is_said_to_be(car):
     for lost in (True, False):
         shown = texts(readings(dashboard("step", car, status=status(), odom_lost=lost), 80, True))
