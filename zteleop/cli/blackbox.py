@@ -26,7 +26,7 @@ EXAMPLES = (
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("what", metavar="ROBOT|FILE", nargs="?", help="a robot of this machine, or any file")
     parser.add_argument("--robot", metavar="NAME", help="the robot, where a file has the same name")
-    kept = f"list the files there are: the {blackbox_file.KEPT} newest of each reason; copy what you want to keep"
+    kept = f"list the files there are: the {blackbox_file.KEPT} newest of each reason; copy what is to stay"
     parser.add_argument("--list", action="store_true", help=kept)
     parser.add_argument("--all", action="store_true", help="every message a line")
     parser.add_argument("--json", action="store_true", help="the timeline as JSON lines")
@@ -40,7 +40,7 @@ def run(arguments: argparse.Namespace) -> None:
         for line in _listing(robot):
             print(printable(line))
         if sys.stdout.isatty():
-            print(f"(of each reason the {blackbox_file.KEPT} newest are kept; copy what you want to keep)")
+            print(f"(of each reason the {blackbox_file.KEPT} newest are kept; copy what is to stay)")
         return
     path = Path(what) if what else _newest(robot)
     recording = blackbox_file.read(path)
