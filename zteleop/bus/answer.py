@@ -25,6 +25,7 @@ ADVICE: dict[str, str] = {
     Refusal.BEFORE_RELEASE: ANEW,
     Refusal.BEFORE_REPAIR: ANEW,
     Refusal.AT_REST: ANEW,
+    Refusal.HELD: ANEW,
     Refusal.STALE: "look at the link, and keep every handler shorter than 0.3 s",
     Refusal.REPLAYED: "publish from one place",
     Refusal.OPERATOR_IDLE: "act again",
@@ -71,10 +72,10 @@ class Answer:
     def miss(self) -> None:
         """Say that the robot has not been heard."""
         self._since, self._unheard, self._words = NEVER, True, ""
-        more = " any more" if self._heard.beat else ""
+        more, hint = (" any more", "") if self._heard.beat else ("", self._hint)
         self._log.warn(
             f"robot {self._robot} is not heard{more}; what is said on {self._topic} moves nothing "
-            f"until its actuator is on (zteleop node list shows who is there){self._hint}"
+            f"until its actuator is on (zteleop node list shows who is there){hint}"
         )
 
     def advise(self, message: Message, moving: bool, steers: bool) -> None:

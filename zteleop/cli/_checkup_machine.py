@@ -114,6 +114,9 @@ def supply(patient: Patient) -> Finding:
 def processes(patient: Patient) -> Finding:
     if (found := leftovers.running()) is None:
         return Finding(None, "nobody can tell which processes of zteleop run here: there is no ps")
+    if frozen := [f"{one.verb} ({one.pid})" for one in found if one.frozen]:
+        words = "stopped, and holds what it has: kill -CONT NUMBER lets it go on, kill -KILL NUMBER ends it"
+        return Finding(False, f"{', '.join(frozen)}: {words}")
     lost = [f"{one.verb} ({one.pid}, for {one.age})" for one in found if not one.seated]
     if lost:
         words = f"{', '.join(lost)}: without a terminal; where no service started one, kill NUMBER ends it"

@@ -5,8 +5,10 @@ import msgspec
 from zteleop import config
 from zteleop.cli import _options
 from zteleop.config import Config
+from zteleop.control.calibration import check_period
 from zteleop.control.settings import DriveSettings
 from zteleop.drivers import DRIVERS, open_driver
+from zteleop.drivers.registers import TICKS
 from zteleop.errors import ConfigError
 from zteleop.processes import watchdog
 
@@ -43,11 +45,13 @@ def run(arguments: argparse.Namespace) -> int:
     name = arguments.driver or settings.driver
     chip = settings.driver_settings(name, robot)
     hand = open_driver(name, chip)
+    drive = _tuned(settings, arguments, hand.tick_us)
+    check_period(drive.servos, TICKS * hand.tick_us)
     tuned = msgspec.structs.replace(
         settings,
         robot=robot,
         driver=name,
-        drive=_tuned(settings, arguments, hand.tick_us),
+        drive=drive,
         journal=arguments.journal or settings.journal,
     )
     return watchdog.run(tuned, hand, lambda node: _options.end_with_parent(arguments, node))

@@ -7,8 +7,10 @@ import msgspec
 from zteleop import config
 from zteleop.cli.up import programs_of
 from zteleop.config import Config
+from zteleop.control.calibration import check_period
 from zteleop.control.report import to_vehicle
 from zteleop.drivers import DRIVERS, settings_of, tick_us
+from zteleop.drivers.registers import TICKS
 from zteleop.text.paths import leaves
 
 EXAMPLES = (
@@ -25,6 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> None:
     path = arguments.file or arguments.config
     settings = config.load(path)
+    check_period(settings.drive.servos, TICKS * _tick_us(settings))
     path = path or config.found()
     if path:
         programs_of(settings.launch, path)
@@ -34,7 +37,7 @@ def run(arguments: argparse.Namespace) -> None:
 
 def _summary(settings: Config) -> str:
     """Say in a few lines what a robot with these settings is."""
-    vehicle = to_vehicle(settings.drive, tick_us(settings.driver, settings.drivers.get(settings.driver, {})))
+    vehicle = to_vehicle(settings.drive, _tick_us(settings))
     lines = [
         f"robot    {settings.robot or 'a name of its own'}",
         f"driver   {settings.driver}",
@@ -51,6 +54,10 @@ def _summary(settings: Config) -> str:
     for name, ours, theirs in _changes(settings):
         lines.append(f"set      {name} = {ours}" + (f", built in {theirs}" if theirs is not None else ""))
     return "\n".join(lines)
+
+
+def _tick_us(settings: Config) -> float:
+    return tick_us(settings.driver, settings.drivers.get(settings.driver, {}))
 
 
 def _idle_limits(settings: Config) -> Iterator[str]:

@@ -4,7 +4,18 @@ from collections.abc import Mapping
 
 from zteleop.control.mixer import Wheels
 from zteleop.control.servo import Servo
+from zteleop.errors import ConfigError
 from zteleop.messages import Pulse, Pwm
+
+
+def check_period(servos: Mapping[str, Servo], period_us: float) -> None:
+    """Raise ConfigError for a servo whose longest pulse does not fit the time from one pulse to the next."""
+    for name, servo in servos.items():
+        if (longest := max(servo.min_us, servo.max_us)) >= period_us:
+            raise ConfigError(
+                f"drive.servos.{name}: its longest pulse, {longest:.0f} us, does not fit a period of "
+                f"{period_us:.0f} us; lower the driver's frequency_hz"
+            )
 
 
 class Calibration:

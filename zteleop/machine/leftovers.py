@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from contextlib import suppress
 from typing import NamedTuple
 
-PS = ("ps", "-axww", "-o", "pid=,ppid=,tty=,etime=,command=")
+PS = ("ps", "-axww", "-o", "pid=,ppid=,tty=,stat=,etime=,command=")
 """what Linux and macOS understand alike"""
-LINE = re.compile(r"\s*(\d+)\s+(\d+)\s+(\S+)\s+(\S+)\s+(.*)")
+LINE = re.compile(r"\s*(\d+)\s+(\d+)\s+(\S+)\s+(\S+)\s+(\S+)\s+(.*)")
 PYTHON = re.compile(r"python[\d.]*", re.IGNORECASE)
 NAMES = ("zteleop", "zteleop.processes")
 NO_TERMINAL = "?-"
@@ -26,6 +26,8 @@ class Running(NamedTuple):
     """as ps says it: 2-13:05:11"""
     seated: bool
     """It belongs to a terminal."""
+    frozen: bool = False
+    """It was stopped, as Ctrl-Z or `kill -STOP` do."""
 
 
 def running() -> list[Running] | None:
@@ -44,9 +46,10 @@ def read(told: str) -> Iterator[Running]:
     for line in told.splitlines():
         if not (words := LINE.match(line)):
             continue
-        pid, parent, terminal, age, command = words.groups()
+        pid, parent, terminal, state, age, command = words.groups()
         if verb := _verb(command.split()):
-            found[pid] = parent, Running(int(pid), verb, age, terminal.strip(NO_TERMINAL) != "")
+            seated, frozen = terminal.strip(NO_TERMINAL) != "", state.startswith("T")
+            found[pid] = parent, Running(int(pid), verb, age, seated, frozen)
     yield from (process for parent, process in found.values() if parent not in found)
 
 

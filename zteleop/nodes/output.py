@@ -133,9 +133,10 @@ class Output:
         with suppress(DeviceError):
             found = self._driver.read([channel for channel in CHANNELS if channel not in self._neutral_us])
             if moving := [str(channel) for channel, width in found.items() if width is not None]:
+                those = f"channel{'s'[: len(moving) - 1]} {', '.join(moving)}"
                 self._tell(
-                    f"channels {', '.join(moving)} of the chip put out pulses that are not this robot's; "
-                    "nothing here stops them: end what drives them, or switch the chip's supply off and on"
+                    f"there are pulses on {those} of the chip, which are not this robot's and which nothing "
+                    "here stops: end what drives them, or switch the chip's supply off and on"
                 )
 
     def _notice_slowness(self, took: float, now: float) -> None:

@@ -15,6 +15,8 @@ GATHER, LONGEST_GATHER = 1.0, 5.0
 """s between events of one kind, and from the first to the last, that are one line with a number"""
 BEAT_GAP = 0.3
 """s between two beats that are worth a line; they come every 0.05 s"""
+CHANGED = " now, and was "
+"""what a node says of a parameter that somebody changed: a reason to drive otherwise"""
 _LEVELS = {Log.WARN: "warns", Log.ERROR: "reports an error", 50: "reports a fatal error"}
 
 
@@ -155,7 +157,8 @@ class Timeline:
         self._note(at, f"watchdog {dog.state}{again}: {dog.why}")
 
     def _hear_log(self, log: _Log, at: float) -> None:
-        if level := _LEVELS.get(log.level):
+        level = _LEVELS.get(log.level) or ("says" if CHANGED in log.msg else "")
+        if level:
             self._note(at, f"{log.name} {level}: {log.msg}", f"log {log.level} {log.name} {log.msg[:40]}")
 
     def _hear_beat(self, beat: _Beat, at: float) -> None:

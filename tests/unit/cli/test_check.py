@@ -28,6 +28,15 @@ def test_a_good_file_is_told_with_what_it_makes(
     )
 
 
+def test_pulses_that_fit_no_period_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "config.toml").write_text("[drivers.simulated]\nfrequency_hz = 600\n")
+    assert run_verb("check", "check", []) == 1
+    assert capsys.readouterr().err == (
+        "zteleop check: drive.servos.throttle: its longest pulse, 2040 us, does not fit a period of 1638 us; "
+        "lower the driver's frequency_hz\n"
+    )
+
+
 def test_a_limit_that_bounds_nothing_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "config.toml").write_text("[drive.limits]\nspeed = 7\nturn = 1.0\n")
     assert run_verb("check", "check", []) == 0

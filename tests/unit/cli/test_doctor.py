@@ -306,6 +306,10 @@ def test_a_supply_that_is_too_low_hinders(
         ([], True, "no other of zteleop runs here"),
         ([Running(7, "sim", "01:02", True)], True, "sim (7): each at a terminal"),
         (
+            [Running(7, "sim", "01:02", False), Running(8, "actuator", "01:02", True, frozen=True)],
+            *(False, "actuator (8): stopped, and holds what it has: kill -CONT NUMBER lets it go on"),
+        ),
+        (
             [Running(7, "sim", "01:02", True), Running(8, "actuator", "2-03:04:05", False)],
             *(None, "actuator (8, for 2-03:04:05): without a terminal; where no service started one, kill"),
         ),

@@ -382,7 +382,9 @@ def test_channels_that_another_program_left_on_are_told_as_nothing_stops_them() 
     bench.chip.pulses |= {4: 1500.0, 7: None, 9: 900.0}
     bench.output.start(bench.now)
     (said,) = bench.said
-    assert said.startswith("channels 4, 9 of the chip put out pulses that are not this robot's; nothing here")
+    assert said.startswith(
+        "there are pulses on channels 4, 9 of the chip, which are not this robot's and which nothing"
+    )
     bench.chip.broken.add("read")
     bench.output.start(bench.now)
     assert len(bench.said) == 1

@@ -164,6 +164,14 @@ def test_another_who_drives_is_told() -> None:
     assert told(*lines) == ["0.00 driving: 1 drives", "0.20 driving: 2 drives"]
 
 
+def test_a_limit_that_somebody_changed_is_told() -> None:
+    said = "limits.speed is 3.0 now, and was 0.1"
+    lines = [
+        line(0.0, "log", {"level": 20, "name": "actuator", "msg": text}) for text in (said, "all is well")
+    ]
+    assert told(*lines) == [f"0.00 actuator says: {said}"]
+
+
 def test_a_watchdog_that_reads_rest_is_told() -> None:
     words = [
         line(at, "watchdog", {"state": state, "why": "it ended", "moving": moving})
