@@ -43,7 +43,8 @@ def rig(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Rig]:
 @pytest.fixture(scope="module", autouse=True)
 def lost(rig: Rig) -> Process:
     """A `pub` to a robot that is not there, begun early because it waits for one."""
-    return rig.run("pub", "/ghost/cmd_vel", "Twist", "--once", *rig.bus_options())
+    where = ("--no-multicast-scouting", "--connect", rig.endpoint)
+    return rig.run("pub", "/ghost/cmd_vel", "Twist", "--once", *where)
 
 
 @pytest.fixture(scope="module")

@@ -41,7 +41,8 @@ class Speakers:
 
     def _meant(self) -> str:
         """Return the topic that may have been meant, of those that this robot has."""
-        there = {one.topic for one in presence.endpoints(self._session) if one.robot == self._name.robot}
+        robot, everybody = self._name.robot, presence.endpoints(self._session)
+        there = {one.topic for one in everybody if (one.robot, one.kind) == (robot, "pub")}
         near = nearest(self._name.path, there)
         return f"; {near}" if near.startswith("did you mean") else ""
 
