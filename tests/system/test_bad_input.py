@@ -323,3 +323,13 @@ def test_a_keyboard_survives_what_is_too_much(say: Say, keyboard: Terminal) -> N
     for topic, kind in REPORTS.items():
         for payload in (b"x" * 10_000_000, b"[" * 100_000, as_json({"msg": "x" * 100_000})):
             say(f"robot/bench/{topic}", payload, codec.encoding_of(kind))
+
+
+def test_a_robot_whose_pulses_fit_no_period_does_not_start(rig: Rig) -> None:
+    (rig.folder / "fast.toml").write_text("[drivers.simulated]\nfrequency_hz = 600\n")
+    refused = rig.result("actuator", "--config", "fast.toml", "--no-multicast-scouting")
+    assert (refused.returncode, refused.stdout) == (1, "")
+    assert refused.stderr == (
+        "zteleop actuator: drive.servos.throttle: its longest pulse, 2040 us, does not fit a period of "
+        "1638 us; lower the driver's frequency_hz\n"
+    )

@@ -105,3 +105,16 @@ def test_who_disagree_are_named(rig: Rig, speaker: Process) -> None:
 def test_who_says_another_type_is_told_that_it_is_dropped(rig: Rig, speaker: Process) -> None:
     _, _, error = asks(rig, "pub", "soil", "std_msgs/msg/Bool", "{data: true}", "--once")
     assert "hears acme_msgs/msg/Soil alone, and drops what is said here, std_msgs/msg/Bool" in error
+
+
+def test_a_program_that_does_not_spin_tells_what_its_type_is_made_of(rig: Rig) -> None:
+    text = SOIL.replace("acme_msgs/msg/Soil", "acme_msgs/msg/Sand").replace('"soil"', '"sand"')
+    text = text.replace("node.spin()", "__import__('time').sleep(60)")
+    for name, word in {"more": "", "values": "", "name": "desert", "endpoint": rig.endpoint}.items():
+        text = text.replace(f"{{{name}}}", word)
+    rig.program(text).says("ready")
+    until(lambda: "sand" in asks(rig, "list")[1], "its topic")
+    assert asks(rig, "interface", "show", "acme_msgs/msg/Sand")[:2] == (
+        0,
+        "# How wet the ground is.\nfloat64 moisture\n",
+    )

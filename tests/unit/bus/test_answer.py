@@ -170,9 +170,12 @@ def test_who_asks_for_what_no_wheels_do_is_told(sender: Sender) -> None:
     ("is_program", "advice"),
     [(True, "start this anew (a program may let_go())"), (False, "let go of everything, and begin anew")],
 )
-def test_who_is_refused_is_told_what_it_can_do(clock: Clock, is_program: bool, advice: str) -> None:
+@pytest.mark.parametrize("refusal", [Refusal.BEFORE_RELEASE, Refusal.HELD])
+def test_who_is_refused_is_told_what_it_can_do(
+    clock: Clock, is_program: bool, advice: str, refusal: Refusal
+) -> None:
     sender = Sender(clock, is_program)
-    sender.refuse(Refusal.BEFORE_RELEASE)
+    sender.refuse(refusal)
     sender.say()
     (line,) = sender.news
     assert advice in line
@@ -289,3 +292,14 @@ def test_who_lets_go_in_between_rests_on_purpose(sender: Sender) -> None:
             sender.clock.pass_by(0.6)
             sender.say(moving=moving)
     assert sender.news == []
+
+
+@pytest.mark.parametrize("was_heard", [True, False])
+def test_where_a_robot_is_said_is_no_help_once_it_was_heard(clock: Clock, was_heard: bool) -> None:
+    sender = Sender(clock)
+    sender.answer._hint = "; say where it is"
+    if was_heard:
+        sender.say(1.0)
+    sender.say(3.0, beats=False)
+    (line,) = sender.news
+    assert line.endswith("; say where it is") is not was_heard

@@ -45,7 +45,8 @@ def test_who_waits_in_vain_is_told_within_two_seconds_and_once(desk: Desk) -> No
 
 
 def test_who_waits_for_a_name_that_is_nearly_one_is_asked(desk: Desk) -> None:
-    desk.session.alive = [SIM.replace("odom", "odo"), SIM.replace("/abe/", "/zoe/")]
+    itself = SIM.replace("/pub/", "/sub/")
+    desk.session.alive = [SIM.replace("odom", "odo"), SIM.replace("/abe/", "/zoe/"), itself]
     assert desk.after(2) == [NOBODY.replace(" (zteleop", "; did you mean odo? (zteleop")]
 
 
