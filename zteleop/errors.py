@@ -44,16 +44,22 @@ class RecordingError(ZteleopError, OSError):
 
 def nearest(name: str, known: Iterable[str]) -> str:
     """Return what somebody may have meant, as the end of a sentence: the nearest names, else all."""
+    names = sorted(set(known))
+    if question := meant(name, names):
+        return question
+    more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
+    return f"known: {', '.join(names[:_SHOWN]) or 'none'}{more}"
+
+
+def meant(name: str, known: Iterable[str]) -> str:
+    """Return the question after the nearest names; nothing where none is near."""
     from difflib import get_close_matches
 
     names = sorted(set(known))
     ends = get_close_matches(_end(name), {_end(one) for one in names}, 3, 0.6)
     alike = [one for one in names if _end(one) in ends]  # whatever stands before it
     near = get_close_matches(name, alike, 3, 0.0) or get_close_matches(name, names, 3, 0.6)
-    if near:
-        return f"did you mean {' or '.join(near)}?"
-    more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
-    return f"known: {', '.join(names[:_SHOWN]) or 'none'}{more}"
+    return f"did you mean {' or '.join(near)}?" if near else ""
 
 
 def _end(name: str) -> str:

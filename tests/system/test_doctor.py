@@ -29,10 +29,7 @@ def test_whose_clock_is_another_is_named_and_a_process_that_nobody_sits_before(
         seconds, nanoseconds = divmod(time.time_ns(), 1_000_000_000)
         return Time(seconds + AHEAD, nanoseconds)
 
-    late = rig.node("late")
+    rig.node("late")  # which never spins
     monkeypatch.setattr(clock, "stamp", stamp)
-    doctor = rig.run("doctor", *rig.bus_options())
-    while doctor.process.poll() is None:
-        late.spin(0.01)
-    assert "/bench/late is 42.0 s ahead of this machine's clock, and so are its stamps" in doctor.text
-    assert doctor.ends() in (0, 1)
+    told = rig.result("doctor", *rig.bus_options()).stdout
+    assert finding(told, "clocks").startswith("/bench/late is 42.0 s ahead of this machine's clock")

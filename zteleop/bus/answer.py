@@ -60,7 +60,8 @@ class Answer:
         self._moved = NEVER
         self._slow = 0
         """How often in a row it was moved on too late."""
-        self._is_program = is_program  # who holds an input steers before driving off
+        self._told_of_turns = False if is_program else None
+        """That no car turns on the spot; None for an input, whose operator steers before driving off."""
 
     @property
     def refused(self) -> str:
@@ -83,8 +84,8 @@ class Answer:
         if not moving:
             if asks_in_vain(message):
                 self._log.warn(f"what is said on {self._topic} moves nothing: {IN_VAIN}")
-        elif self._is_program and steers:
-            self._is_program = False
+        elif self._told_of_turns is False and steers:
+            self._told_of_turns = True
             self._log.warn(
                 f"what is said on {self._topic} turns front wheels and moves nothing: {STEERS_ONLY}"
             )
@@ -133,7 +134,8 @@ class Answer:
         why = next((refused.why for refused in told.refused if refused.sender == self._sender), "")
         rest = f" ({told.rest})" if why and told.rest else ""
         advice = ADVICE.get(why, "")
-        return why + rest, LET_GO if advice is ANEW and not self._is_program else advice
+        is_input = self._told_of_turns is None
+        return why + rest, LET_GO if advice is ANEW and is_input else advice
 
     def _tell(self, words: str, advice: str) -> None:
         before, self._words = self._words, words

@@ -244,7 +244,8 @@ class Node:
             self._services.add(name_of, request, response, handler, stands=False)
 
         self._parameters.serve(serve)
-        serve(times.SERVICE, *service_type(times.TYPE), times.tell)
+        name = Name(robot, f"{self.name}/{times.SERVICE}")
+        self._services.add(name, *service_type(times.TYPE), times.tell, stands=False, at_once=True)
         self.membership.session.declare_token(presence.parameters_key(robot, self.name))
 
     def _serve_types(self, robot: str, tell: Callable[[GetTypeRequest], GetTypeResponse]) -> None:

@@ -53,7 +53,8 @@ class Services:
     ) -> None:
         """Answer what is asked under a name; others are told of it, unless something else `stands` for it.
 
-        With `at_once` in the thread that brings the question, whatever the node does: of what never changes.
+        With `at_once` in the thread that brings the question: for what asks nothing of the node, which may be
+        busy, or spin never.
         Raises ConfigError for types that are not of one service.
         """
         ros_type = service_type_of(request, response)

@@ -6,7 +6,7 @@ from zteleop.bus import clock, presence
 from zteleop.bus.loop import Loop
 from zteleop.bus.names import Name
 from zteleop.bus.session import Session
-from zteleop.errors import nearest
+from zteleop.errors import meant
 
 SPEAKERS = 100
 """of one topic that are remembered"""
@@ -43,8 +43,8 @@ class Speakers:
         """Return the topic that may have been meant, of those that this robot has."""
         robot, everybody = self._name.robot, presence.endpoints(self._session)
         there = {one.topic for one in everybody if (one.robot, one.kind) == (robot, "pub")}
-        near = nearest(self._name.path, there)
-        return f"; {near}" if near.startswith("did you mean") else ""
+        question = meant(self._name.path, there)
+        return f"; {question}" if question else ""
 
     def _look(self) -> float:
         """Look who has come and gone; return when to look again."""

@@ -8,7 +8,7 @@ from zteleop.bus.names import Name
 from zteleop.bus.presence import Endpoint, Kind, process
 from zteleop.bus.session import Session
 from zteleop.bus.topics import TOPICS, topic_of
-from zteleop.errors import nearest
+from zteleop.errors import meant, nearest
 
 
 def by_topic(endpoints: Iterable[Endpoint]) -> dict[str, list[Endpoint]]:
@@ -100,9 +100,8 @@ def _others(name: Name, kind: Kind, endpoints: list[Endpoint], unreached: Sequen
     topics = {topic_of(one.topic).name for one in others if (one.robot, one.kind) == (name.robot, kind)}
     if topic_of(name.path).types or not topics:
         return " now"
-    near = nearest(name.path, topics | TOPICS.keys())
-    if near.startswith("did you mean"):
-        return f"; {near}"
+    if question := meant(name.path, topics | TOPICS.keys()):
+        return f"; {question}"
     # Whoever hears a topic of somebody's own is yet to come; whoever waits for one is told what there is.
     return " now" if kind == "sub" else f"; {nearest(name.path, topics)}"
 

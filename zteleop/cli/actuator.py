@@ -5,10 +5,10 @@ import msgspec
 from zteleop import config
 from zteleop.cli import _options
 from zteleop.config import Config
-from zteleop.control.calibration import check_period
+from zteleop.control.calibration import check_pulses
 from zteleop.control.settings import DriveSettings
 from zteleop.drivers import DRIVERS, open_driver
-from zteleop.drivers.registers import TICKS
+from zteleop.drivers.registers import longest_us
 from zteleop.errors import ConfigError
 from zteleop.processes import watchdog
 
@@ -46,7 +46,7 @@ def run(arguments: argparse.Namespace) -> int:
     chip = settings.driver_settings(name, robot)
     hand = open_driver(name, chip)
     drive = _tuned(settings, arguments, hand.tick_us)
-    check_period(drive.servos, TICKS * hand.tick_us)
+    check_pulses(drive.servos, longest_us(hand.tick_us))
     tuned = msgspec.structs.replace(
         settings,
         robot=robot,

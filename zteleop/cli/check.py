@@ -7,10 +7,10 @@ import msgspec
 from zteleop import config
 from zteleop.cli.up import programs_of
 from zteleop.config import Config
-from zteleop.control.calibration import check_period
+from zteleop.control.calibration import check_pulses
 from zteleop.control.report import to_vehicle
 from zteleop.drivers import DRIVERS, settings_of, tick_us
-from zteleop.drivers.registers import TICKS
+from zteleop.drivers.registers import longest_us
 from zteleop.text.paths import leaves
 
 EXAMPLES = (
@@ -27,7 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> None:
     path = arguments.file or arguments.config
     settings = config.load(path)
-    check_period(settings.drive.servos, TICKS * _tick_us(settings))
+    check_pulses(settings.drive.servos, longest_us(_tick_us(settings)))
     path = path or config.found()
     if path:
         programs_of(settings.launch, path)

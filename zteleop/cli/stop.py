@@ -140,7 +140,7 @@ class Stops:
 
 
 def release_each(node: Node, robots: list[str], everybodys: bool) -> int:
-    """Release robots, who were stopped by one word as well; return 1 when one of them is not."""
+    """Release each and tell of it; return 1 where one of several stays stopped, raise for the only one."""
     failed = 0
     for robot in robots:
         try:

@@ -8,13 +8,13 @@ from zteleop.errors import ConfigError
 from zteleop.messages import Pulse, Pwm
 
 
-def check_period(servos: Mapping[str, Servo], period_us: float) -> None:
-    """Raise ConfigError for a servo whose longest pulse does not fit the time from one pulse to the next."""
+def check_pulses(servos: Mapping[str, Servo], longest_us: float) -> None:
+    """Raise ConfigError for a servo with pulses no shorter than a chip's longest, which its period bounds."""
     for name, servo in servos.items():
-        if (longest := max(servo.min_us, servo.max_us)) >= period_us:
+        if (widest := max(servo.min_us, servo.max_us)) >= longest_us:
             raise ConfigError(
-                f"drive.servos.{name}: its longest pulse, {longest:.0f} us, does not fit a period of "
-                f"{period_us:.0f} us; lower the driver's frequency_hz"
+                f"drive.servos.{name}: its longest pulse, {widest:.0f} us, does not fit a period of "
+                f"{longest_us:.0f} us; lower the driver's frequency_hz"
             )
 
 

@@ -23,6 +23,7 @@ from zteleop.drivers.registers import (
     TICKS,
     led_blocks,
     led_runs,
+    longest_us,
     prescale,
     read_duty_ticks,
     read_pulse_us,
@@ -162,7 +163,8 @@ class Pca9685:
 
     def _ticks(self, channel: int, width_us: float) -> int:
         ticks = width_us / self.tick_us
-        if channel not in CHANNELS or not 0.5 < ticks < TICKS - 0.5:  # OFF must never equal ON, which is 0
+        fits = ticks > 0.5 and width_us < longest_us(self.tick_us)  # OFF must never equal ON, which is 0
+        if channel not in CHANNELS or not fits:
             raise ConfigError(
                 f"channel {channel}, {width_us:g} us: expected a channel of 0..15 and a pulse within the "
                 f"period of {TICKS * self.tick_us:.0f} us; lower frequency_hz for a longer one"

@@ -32,6 +32,11 @@ def prescale(frequency_hz: float, osc_hz: float = OSCILLATOR_HZ) -> int:
     return round(divider) - 1
 
 
+def longest_us(tick_us: float) -> float:
+    """Return what a pulse must be shorter than: rounded to counts, its end must not be its beginning."""
+    return (TICKS - 0.5) * tick_us
+
+
 def tick_us(prescale: int, osc_hz: float = OSCILLATOR_HZ) -> float:
     """Return the length of one count in microseconds."""
     return (prescale + 1) / osc_hz * 1e6

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple, get_args, get_origin
 import msgspec
 from msgspec import inspect
 
-from zteleop.errors import nearest
+from zteleop.errors import meant, nearest
 
 Path = tuple[str, ...]
 _LONGEST = 60
@@ -174,8 +174,8 @@ def _found(value: object) -> str:
 
 def _near(value: object, choices: Iterable[object]) -> str:
     names = {str(choice) for choice in choices}
-    told = nearest(value, names) if isinstance(value, str) and names else ""
-    return f"; {told}" if told.startswith("did you mean") else ""
+    question = meant(value, names) if isinstance(value, str) else ""
+    return f"; {question}" if question else ""
 
 
 def _or(choices: Iterable[object]) -> str:

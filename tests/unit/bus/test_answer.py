@@ -294,6 +294,18 @@ def test_who_lets_go_in_between_rests_on_purpose(sender: Sender) -> None:
     assert sender.news == []
 
 
+def test_a_program_that_was_told_of_a_turn_is_a_program_still(clock: Clock) -> None:
+    sender = Sender(clock)
+    sender.heard.vehicle = to_vehicle(DriveSettings(), 4.8)
+    for _ in range(2):
+        sender.advise(Twist.planar(0.0, 0.5), True)
+    sender.refuse(Refusal.HELD)
+    sender.say()
+    told, refused = sender.news
+    assert "a car turns only while it drives" in told
+    assert "a program may let_go()" in refused
+
+
 @pytest.mark.parametrize("was_heard", [True, False])
 def test_where_a_robot_is_said_is_no_help_once_it_was_heard(clock: Clock, was_heard: bool) -> None:
     sender = Sender(clock)

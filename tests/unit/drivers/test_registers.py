@@ -8,8 +8,10 @@ from zteleop.drivers.chip import POWER_UP
 from zteleop.drivers.registers import (
     MODE1,
     PRE_SCALE,
+    TICKS,
     led_blocks,
     led_runs,
+    longest_us,
     prescale,
     read_duty_ticks,
     read_pulse_us,
@@ -74,6 +76,12 @@ def image(led: Sequence[int] = (0, 0, 0x70, 0x01), mode1: int = 0x20, pre_scale:
     registers[MODE1], registers[PRE_SCALE] = mode1, pre_scale
     registers[0x0A:0x0E] = bytes(led)
     return registers
+
+
+def test_the_longest_pulse_ends_before_the_next_begins() -> None:
+    longest = longest_us(4.0)
+    assert round((longest - 0.01) / 4.0) == TICKS - 1
+    assert round((longest + 0.01) / 4.0) == TICKS, "which is where it begins"
 
 
 def test_a_pulse_is_read_with_the_real_tick() -> None:
