@@ -13,6 +13,8 @@ xs: list[float] = []
 headings: list[float] = []
 turned = 0.0
 
+print(f"drives a circle of {2 * RADIUS:g} m at {SPEED:g} m/s: {tau * RADIUS / SPEED:.0f} s", flush=True)
+
 with Node("circle", robot="archangel") as node:
     motors = node.publisher("cmd_vel", Twist)
 

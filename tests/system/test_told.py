@@ -161,3 +161,44 @@ def test_a_keyboard_of_a_robot_that_is_not_there_says_who_is_now(rig: Rig) -> No
     keyboard.shows("no actuator heard on robot bensh (heard here: bench; did you mean bench?)")
     keyboard.type("q")
     assert keyboard.ends() == 0
+
+
+LISTENER = """
+from zteleop import BusSettings, Node, Odometry
+
+with Node("ears", robot="bench", bus=BusSettings(connect=["{endpoint}"], multicast=False)) as node:
+    for odometry in node.subscription("odom", Odometry):
+        print(f"heard {odometry.pose.pose.position.x}", flush=True)
+"""
+SECOND = """
+from zteleop import BusSettings, Node, Twist
+
+with Node("second", robot="bench", bus=BusSettings(connect=["{endpoint}"], multicast=False)) as node:
+    motors = node.publisher("cmd_vel", Twist)
+    node.every(0.1)(lambda: motors.publish(Twist.planar(linear=0.2)))
+    node.spin()
+"""
+
+
+def test_a_program_that_only_waits_for_messages_is_told_that_nobody_publishes(rig: Rig) -> None:
+    rig.actuator()
+    ears = rig.program(LISTENER.replace("{endpoint}", rig.endpoint))
+    ears.says("ears: warning: nobody publishes bench/odom")
+    rig.join("pub", "odom", "Odometry", "{pose: {pose: {position: {x: 2.5}}}}", "-r", "10")
+    ears.says("bench/odom is published now")
+    ears.says("heard 2.5")
+    ears.signal(signal.SIGINT)
+    ears.ends()
+    assert ears.text.count("nobody publishes") == 1
+
+
+def test_a_second_program_is_told_when_the_first_is_done(rig: Rig) -> None:
+    rig.actuator()
+    first = rig.join(*DRIVE)
+    moves(rig)
+    second = rig.program(SECOND.replace("{endpoint}", rig.endpoint))
+    second.says("refused by robot bench: another sender drives this source; let go")
+    first.signal(signal.SIGINT)
+    assert first.ends() == 130
+    second.says("refused by robot bench: another sender drove this source when this one began, and is done")
+    assert rig.ticks == NEUTRAL, "what was asked for meanwhile drives nothing by itself"

@@ -44,6 +44,8 @@ def test_no_error_is_another() -> None:
             "did you mean geometry_msgs/msg/Twist?",
         ),
         ("xyz", ["b", "a", "a"], "known: a, b"),
+        ("geometry_msgs/msg/Fog", ["geometry_msgs/msg/Twist"], "known: geometry_msgs/msg/Twist"),
+        ("interface/buttons", ["interface_buttons", "odom"], "did you mean interface_buttons?"),
         ("xyz", [], "known: none"),
         ("xyz", [f"{n:02}" for n in range(23)], "19 and 3 more"),
     ],

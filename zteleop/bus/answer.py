@@ -15,6 +15,8 @@ LASTS = 2.0
 """s that a refusal holds which the robot does not repeat; a slow stream asks seldom"""
 OBEYED_FOR = SOURCES["program"].silence
 """s after a command in which a robot still obeys a program"""
+BRIEF = 0.1
+"""s in which no wheel has moved to speak of"""
 PAUSE, TOO_SLOW = 5.0, 2
 """s that are no stream any more, and how many gaps in a row make a slow one"""
 ANEW = "when whoever watches the robot wants it to move, start this anew (a program may let_go())"
@@ -26,6 +28,7 @@ ADVICE: dict[str, str] = {
     Refusal.BEFORE_REPAIR: ANEW,
     Refusal.AT_REST: ANEW,
     Refusal.HELD: ANEW,
+    Refusal.WAITED: ANEW,
     Refusal.STALE: "look at the link, and keep every handler shorter than 0.3 s",
     Refusal.REPLAYED: "publish from one place",
     Refusal.OPERATOR_IDLE: "act again",
@@ -78,6 +81,14 @@ class Answer:
             f"robot {self._robot} is not heard{more}; what is said on {self._topic} moves nothing "
             f"until its actuator is on (zteleop node list shows who is there){hint}"
         )
+
+    def end(self, seconds: float) -> None:
+        """Say to a program that ends, and so lets go, that what it said lasted too briefly to be seen."""
+        if self._told_of_turns is not None and seconds < BRIEF and not self.refused:
+            self._log.warn(
+                f"what was said on {self._topic} held for {seconds * 1000:.0f} ms: a program that ends lets "
+                f"go; publish 10 times a second for as long as robot {self._robot} is to move"
+            )
 
     def advise(self, message: Message, moving: bool, steers: bool) -> None:
         """Say of a command that no robot on wheels does it, or, to a program and once, that no car does."""

@@ -1,5 +1,6 @@
 """What a node is made of: a place on the bus, a loop, and ears for the robots that it commands."""
 
+import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, TypeVar
@@ -37,11 +38,11 @@ class Membership:
         self._deliveries: list[Delivery] = []
         self._heard: dict[str, Heard] = {}
         self._handles = False
-        self._closed = False
+        self._closed = threading.Event()
 
     def close(self) -> None:
         """Leave the bus: others see this node go, and its threads end."""
-        self._closed = True
+        self._closed.set()
         self.session.close()  # first: it is what ends the waiting of the deliveries
         for delivery in self._deliveries:
             delivery.close()
@@ -96,10 +97,19 @@ class Membership:
 
     def spin(self, seconds: float | None = None) -> None:
         """Run the loop until it is stopped, or for some seconds; raises BusError once it is closed."""
-        if self._closed:
+        if self._closed.is_set():
             raise BusError(f"node {self._node} is closed; spin inside its `with`")
         with self.handling():
             self.loop.run(None if seconds is None else clock.now() + seconds)
+
+    def beside(self, look: Callable[[], float]) -> None:
+        """Look in a thread, and again when it says, until the node closes: for who waits without a loop."""
+
+        def run() -> None:
+            while not self._closed.wait(look() - clock.now()):
+                pass
+
+        threading.Thread(target=run, daemon=True).start()
 
     def until(self, look: Callable[[], T], seconds: float) -> T:
         """Spin until `look` finds something, at most for some seconds; return what it found last."""

@@ -174,6 +174,8 @@ class Node:
         inbox: Subscription[M] = self.membership.inbox(topic, _tuple(types), depth, complain)
         if handler:
             self.membership.deliver(inbox, handler)
+        else:
+            inbox.on_wait = lambda: self._miss_speakers(resolve(topic, self.robot), in_loop=False)
         return inbox
 
     def on(
@@ -188,11 +190,14 @@ class Node:
 
         return decorate
 
-    def _miss_speakers(self, name: Name) -> None:
+    def _miss_speakers(self, name: Name, in_loop: bool = True) -> None:
         """Tell whoever waits for a topic that nobody publishes it; of commands there may be none for long."""
         if not topic_of(name.path).command:
             speakers = Speakers(self.membership.session, name, self.log.warn, self.log.info)
-            speakers.watch(self.membership.loop)
+            if in_loop:
+                speakers.watch(self.membership.loop)
+            else:
+                self.membership.beside(speakers.look)
 
     def service(self, name: str, request: type[Q], response: type[R], handler: Callable[[Q], R]) -> None:
         """Answer what others ask under a name, in `spin`; a handler that raises is told to whoever asked.

@@ -8,7 +8,7 @@ from zteleop.bus.answer import Answer
 from zteleop.bus.heard import Heard
 from zteleop.bus.session import Outlet
 from zteleop.control.command import moves, neutral, steers_only
-from zteleop.control.proof import Prover
+from zteleop.control.proof import NEVER, Prover
 from zteleop.errors import BusError, MessageError
 from zteleop.messages import Message
 
@@ -36,6 +36,7 @@ class Publisher(Generic[M]):
         self._heard = heard
         self._listen = listen
         self._answer = answer
+        self._moving_since = NEVER
         self._said: type[Message] = types[0]
         self._encodings: dict[type[Message], str] = {kind: codec.encoding_of(kind) for kind in types}
 
@@ -83,6 +84,8 @@ class Publisher(Generic[M]):
     def leave(self) -> None:
         """Let go of what this publisher moves, if anything: its program ends in order, and is not lost."""
         if self._prover and self._prover.moving:
+            if self._answer:
+                self._answer.end(clock.now() - self._moving_since)
             self.let_go()
 
     def repeat(self, message: M) -> None:
@@ -118,6 +121,8 @@ class Publisher(Generic[M]):
             return None
         self._listen()
         moving = moves(message, self._heard.vehicle)
+        if moving and not self._prover.moving:
+            self._moving_since = clock.now()
         if self._answer:
             steers = steers_only(message, self._heard.vehicle)
             self._answer.heed(moving, steers)

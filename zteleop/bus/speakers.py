@@ -36,7 +36,7 @@ class Speakers:
 
     def watch(self, loop: Loop) -> None:
         """Look who is there, in a loop, for as long as that runs."""
-        alarm = loop.alarm(lambda: alarm.ring_at(self._look()))
+        alarm = loop.alarm(lambda: alarm.ring_at(self.look()))
         alarm.ring_at(clock.now() + LOOK_EVERY)
 
     def _meant(self) -> str:
@@ -46,7 +46,7 @@ class Speakers:
         question = meant(self._name.path, there)
         return f"; {question}" if question else ""
 
-    def _look(self) -> float:
+    def look(self) -> float:
         """Look who has come and gone; return when to look again."""
         there = bool(self._tokens.there())
         if there and self._missed >= LOOKS:

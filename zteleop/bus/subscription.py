@@ -43,10 +43,13 @@ class Subscription(Generic[M]):
         self._accepted = accepted
         self._complain = complain
         self._handling = handling
+        self.on_wait: Callable[[], object] = _nothing
+        """called when somebody begins to iterate, and runs no loop meanwhile"""
         self.dropped = 0
 
     def __iter__(self) -> Iterator[M]:
         """Yield messages as they come, until the node is closed."""
+        self.on_wait()
         while True:
             try:
                 sample = self.ring.recv()
@@ -88,3 +91,7 @@ class Subscription(Generic[M]):
     def _drop(self, key: str, why: str) -> None:
         self.dropped += 1
         self._complain(f"{key}: dropped: {why}")
+
+
+def _nothing() -> None:
+    """Tell nobody."""

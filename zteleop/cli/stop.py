@@ -22,6 +22,7 @@ TELL_AFTER = 1.0
 """s until it says for whom it waits"""
 SOON = 0.6
 """s in which a robot that is there has answered"""
+GOES_ON = f"goes on saying so until {REPEAT:g} s are over, to whoever comes late; Ctrl-C ends that"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -182,12 +183,9 @@ def _listen(node: Node, stopping: Stopping) -> None:
 def _tell(stopping: Stopping) -> None:
     if stopping.state == "done":
         advice = f"zteleop stop --release {stopping.robot} lets it drive again, from neutral"
-        print(printable(f"{stopping.words}; {advice}"), flush=True)
+        print(printable(f"{stopping.words}; {advice}\n{GOES_ON}", keep="\n"), flush=True)
     else:
         print(printable(f"zteleop stop: {stopping.words}"), file=sys.stderr, flush=True)
-    if sys.stderr.isatty():  # where somebody waits for the prompt
-        words = f"goes on saying so until {REPEAT:g} s are over, to whoever comes late; Ctrl-C ends that"
-        print(words, file=sys.stderr, flush=True)
 
 
 def _robots(node: Node, settings: Config, every: bool) -> list[str]:

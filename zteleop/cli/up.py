@@ -79,6 +79,7 @@ def programs_of(launch: Mapping[str, str], path: Path) -> dict[str, Program]:
     for name, words in launch.items():
         try:
             found[name] = program(name, words, path)
+            _expect_file(name, words)
         except ConfigError as error:
             where = place(written, ("launch", name)) or ()
             mistakes.append(f"{':'.join(map(str, (path, *where)))}: {error}")
@@ -111,6 +112,18 @@ def program(name: str, words: str, path: Path) -> Program:
             f"launch.{name}: no program {verb!r}, and no verb of zteleop; {nearest(verb, known)}"
         )
     return Program(typed)
+
+
+def _expect_file(name: str, words: str) -> None:
+    """Raise ConfigError where a program is named by its file, and that is not there."""
+    verb, rest = find_verb(shlex.split(words))
+    takes_file = verb == "run" or Path(verb).name.startswith("python")
+    files = [verb] if "/" in verb else []
+    files += [word for word in rest[:1] if takes_file and word.endswith(".py")]
+    for file in files:
+        if which(file) is None and (file == verb or not Path(file).is_file()):
+            what = "no program that may be run" if file == verb else "no such file"
+            raise ConfigError(f"launch.{name}: {what}, seen from {Path.cwd()}: {file}")
 
 
 def teller(programs: Mapping[str, Program]) -> "Teller":

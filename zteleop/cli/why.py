@@ -75,6 +75,8 @@ def state_of(dog: WatchdogStatus) -> str:
     permits = "commands that allow motion" if dog.allowed else "no command that allows motion now"
     if dog.allowed and not dog.moving:
         permits = "commands that it would let pass"
-    steps = f"{dog.why}, last {dog.silence * 1000:.0f} ms ago" if dog.state == "watching" else dog.why
+    # said in step with the actuator, so that the very figure would always be the same one
+    last = "within the last 50 ms" if dog.silence < 0.05 else f"last {dog.silence * 1000:.0f} ms ago"
+    steps = f"{dog.why}, {last}" if dog.state == "watching" else dog.why
     restarts = f"; {dog.restarts} restart{'s'[: dog.restarts - 1]}" if dog.restarts else ""
     return f"{dog.state}: {steps}; sees {sees}, and hears {permits}{restarts}"

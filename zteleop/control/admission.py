@@ -263,7 +263,9 @@ class Admission:
         self._left = None
         claim = Claim(source, proof.sender, command, proof.acted, now, proof.seq, proof.beat, proof.began)
         if not self.mux.offer(claim):
-            return Refusal.HELD
+            others = (one for one in self.mux.claims if one.source == source and one.sender != proof.sender)
+            is_held = any(now - one.at <= self._settings.deadlines.link_loss for one in others)
+            return Refusal.HELD if is_held else Refusal.WAITED
         self.gate.count(proof, now)
         return None
 

@@ -23,14 +23,14 @@ class Refusal(StrEnum):
     REPLAYED = "it repeats an older command"
     STALE = "it is too old, or its sender no longer hears the robot"
     OPERATOR_IDLE = "its operator has not acted for too long"
-    NOT_FROM_NEUTRAL = f"it was moving before the robot started, or before it was heard again; {ANEW}"
+    NOT_FROM_NEUTRAL = (
+        f"it was moving before the robot started, or before it was silent or cut off for a while; {ANEW}"
+    )
     BEFORE_RELEASE = f"it was moving before the stop was released; {ANEW}"
     BEFORE_REPAIR = f"it was moving before the chip's fault was over; {ANEW}"
     INTERRUPTED = "it was said before an interruption ended; act once more"
-    HELD = (
-        "another sender drives this source, or did when this one began; "
-        "let go, and begin anew when that one is done"
-    )
+    HELD = "another sender drives this source; let go, and begin anew when that one is done"
+    WAITED = "another sender drove this source when this one began, and is done; let go, and begin anew"
     AT_REST = "the robot is kept at rest; let go, and begin anew when it is free"
     NO_SUCH_CHANNEL = "this vehicle has no steering and throttle; send a twist"
 

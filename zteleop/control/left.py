@@ -14,10 +14,11 @@ class Left(NamedTuple):
     who: str
     at: float
     is_idle: bool = False
-    """it let go because nobody had acted for too long; others are gone from the bus"""
+    """it let go because nobody had acted for too long; of others the link, or the process, is lost"""
 
     def told(self, limit: float) -> tuple[State, str]:
         """Return the state of a robot that nobody else has driven since, and why."""
         if self.is_idle:
             return "idle", f"nobody drives; {self.who} had not acted for {limit:g} s"
-        return "link lost", f"{self.who} is gone from the bus; whoever begins drives"
+        gone = "is not heard any more: ended, suspended or cut off"
+        return "link lost", f"{self.who} {gone}; whoever begins drives"

@@ -88,8 +88,8 @@ class Console:
 
     @property
     def in_vain(self) -> str:
-        """Nothing: a pad tells what is held."""
-        return ""
+        """What there is to say of a key beside the pad that does nothing."""
+        return self.keyboard.in_vain
 
     @property
     def switches(self) -> dict[str, bool]:

@@ -15,6 +15,7 @@ SHORTEST_GAP, LONGEST_GAP = 0.12, 0.3
 """s after the last repeat until a key counts as let go."""
 TOLD_FOR = 3.0
 """s that a press in vain is worth a word, unless one counts before"""
+HELD_BEFORE = f"this key counts as held since before: let go for {FIRST} s, then press it again"
 REPEATING = 0.1
 """s; no finger taps faster than this, so shorter intervals are repeats."""
 

@@ -6,7 +6,7 @@ from typing import Self
 
 from zteleop.control.stick import Speeds, Stick
 from zteleop.inputs import Drive, Wish
-from zteleop.inputs.held_keys import FIRST, REPEATING, Block
+from zteleop.inputs.held_keys import FIRST, HELD_BEFORE, REPEATING, Block
 from zteleop.inputs.holding import Holding
 from zteleop.inputs.keymap import DIRECTIONS, OTHER, TOGGLE, Moves, bindings, describe, first_keys, switches
 from zteleop.inputs.levers import Levers, Steps
@@ -115,8 +115,8 @@ class Keyboard:
 
     @property
     def in_vain(self) -> str:
-        """What to do, while a key is pressed that counts as held since before the robot was at rest."""
-        return f"let go for {FIRST} s" if self._block.is_felt(self._now) else ""
+        """Why what was just pressed counts for nothing, and what to do."""
+        return HELD_BEFORE if self._block.is_felt(self._now) else self._wishes.missed(self._now)
 
     @property
     def switches(self) -> dict[str, bool]:
@@ -185,9 +185,7 @@ class Keyboard:
         """Return where the stick is; neutral after `idle_limit` without a key."""
         if self._idle(now):
             self.neutral()
-        if self.drive == "step":
-            return self._levers.stick()
-        return self._holding.stick(now)
+        return self._levers.stick() if self.drive == "step" else self._holding.stick(now)
 
     def idle_left(self, now: float) -> float | None:
         """Return the seconds until neutral for want of a key; None when it is neutral already."""
@@ -221,6 +219,7 @@ class Keyboard:
     def _press(self, key: Key) -> None:
         names = (key.name, key.name.lower(), OTHER)
         action = next((self._bindings[name] for name in names if name in self._bindings), "")
+        self._wishes.note(key.name, action, self.bound.get("help", ""), self._now)
         if (self.finished or self.suspending) and action != "stop robot":
             return
         if action in DIRECTIONS:

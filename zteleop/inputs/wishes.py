@@ -4,6 +4,9 @@ from collections.abc import Iterable
 
 from zteleop.inputs import Wish
 
+MISSED_FOR = 2.0
+"""s that a key which does nothing is worth a word"""
+
 
 class Wishes:
     """The newest that nobody has taken yet; a release never takes back a stop."""
@@ -15,6 +18,7 @@ class Wishes:
         self.switches = dict.fromkeys(switches, False)
         """Which are on."""
         self._asked: dict[Wish | str, float] = {}
+        self._missed = ("", float("-inf"))
 
     def ask(self, wish: Wish, gap: float, now: float) -> None:
         """Take in a press; one that follows the last within `gap` s is a key's repeat, and asks nothing."""
@@ -25,6 +29,16 @@ class Wishes:
         """Take in a press of a switch's key."""
         if self._is_new(switch, gap, now):
             self.switches[switch] = not self.switches[switch]
+
+    def note(self, key: str, action: str, shows: str, now: float) -> None:
+        """Take in a press, and remember one of a key without an action; `shows` is the key of the help."""
+        more = f"; {shows} shows what each key does" if shows else ""
+        self._missed = ("" if action else f"{key} does nothing here{more}", now)
+
+    def missed(self, now: float) -> str:
+        """Return what there is to say of a key that was just pressed, and does nothing."""
+        words, at = self._missed
+        return words if now - at < MISSED_FOR else ""
 
     def _is_new(self, what: Wish | str, gap: float, now: float) -> bool:
         before, self._asked[what] = self._asked.get(what, float("-inf")), now

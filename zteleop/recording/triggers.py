@@ -66,6 +66,8 @@ class Triggers:
         if not stop.engaged or not stop.id or stop.id in shown or stop.id in self._known:
             return None  # said again, or by hand without an id, which only the status tells apart
         self._known.append(stop.id)
+        if shown:
+            return None  # of a robot that stands stopped already there is nothing new to see
         return STOP, f"stopped by {stop.by or 'somebody'}" + (f": {stop.why}" if stop.why else "")
 
     def _hear_status(self, status: DriveStatus, at: float) -> tuple[str, str] | None:
@@ -77,7 +79,7 @@ class Triggers:
             return None
         if new := _ids(status) - _ids(before) - set(self._known):
             self._known.extend(new - {0})
-            return STOP, status.why
+            return (STOP, status.why) if before.state != "stopped" else None
         if status.state == before.state or status.state not in STATES:
             return None
         if at - seen < SAME_WITHIN and at - self._told.get(status.state, NEVER) < SECONDS:

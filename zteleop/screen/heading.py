@@ -74,7 +74,7 @@ def reasons(d: Dashboard, unicode: bool) -> list[tuple[str, str]]:
         refused = (f"you are not obeyed: {printable(words, unicode)}", "yellow")
         return [why, refused] if status.state in HOLDS else [refused]
     if d.in_vain:
-        return [why, (f"this key counts as held since before: {d.in_vain}, then press it again", "yellow")]
+        return [why, (printable(d.in_vain, unicode), "yellow")]
     return [why, *dead_zone(d)]
 
 

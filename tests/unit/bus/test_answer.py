@@ -170,7 +170,7 @@ def test_who_asks_for_what_no_wheels_do_is_told(sender: Sender) -> None:
     ("is_program", "advice"),
     [(True, "start this anew (a program may let_go())"), (False, "let go of everything, and begin anew")],
 )
-@pytest.mark.parametrize("refusal", [Refusal.BEFORE_RELEASE, Refusal.HELD])
+@pytest.mark.parametrize("refusal", [Refusal.BEFORE_RELEASE, Refusal.HELD, Refusal.WAITED])
 def test_who_is_refused_is_told_what_it_can_do(
     clock: Clock, is_program: bool, advice: str, refusal: Refusal
 ) -> None:

@@ -232,6 +232,30 @@ def test_whoever_publishes_hears_that_it_is_refused(operator: Operator) -> None:
     assert operator.publisher.refused == "not now"
 
 
+def test_a_program_that_says_one_command_and_ends_is_told_that_nothing_moved(
+    operator: Operator, clock: Clock, capsys: pytest.CaptureFixture[str]
+) -> None:
+    operator.beat(5.0)
+    operator.publisher.publish(Twist.planar(1.0, 0.0))
+    clock.pass_by(0.004)
+    operator.publisher.leave()
+    said = "what was said on cmd_vel held for 4 ms: a program that ends lets go; publish 10 times a second"
+    assert said in capsys.readouterr().out
+    operator.publisher.leave()
+    assert not capsys.readouterr().out, "nothing moves any more"
+
+
+def test_a_program_that_drove_for_a_while_ends_quietly(
+    operator: Operator, clock: Clock, capsys: pytest.CaptureFixture[str]
+) -> None:
+    operator.beat(5.0)
+    for _ in range(3):
+        operator.publisher.publish(Twist.planar(1.0, 0.0))
+        clock.pass_by(0.05)
+    operator.publisher.leave()
+    assert not capsys.readouterr().out
+
+
 def test_it_listens_before_it_acts_and_before_it_proves(operator: Operator) -> None:
     operator.publisher.act()
     assert operator.listened == 1

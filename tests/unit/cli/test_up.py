@@ -58,6 +58,22 @@ def test_each_mistake_of_a_file_is_told_with_its_place(tmp_path: Path) -> None:
     assert second.startswith(f"{file}:4:1: launch.x: expected a command")
 
 
+@pytest.mark.parametrize("words", ["./follow", "python3 follow.py", "run follow.py --robot abe", "/no/such"])
+def test_a_program_that_is_not_there_is_told_before_it_is_started(
+    words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    file = tmp_path / "config.toml"
+    file.write_text(f'[launch]\nmine = "{words}"\n')
+    with pytest.raises(ConfigError, match=f"config.toml:2:1: launch.mine: no .*, seen from {tmp_path}: "):
+        up.programs_of({"mine": words}, file)
+    (tmp_path / "follow.py").write_text("")
+    (tmp_path / "follow").write_text("")
+    (tmp_path / "follow").chmod(0o755)
+    if words != "/no/such":
+        assert list(up.programs_of({"mine": words}, file)) == ["mine"]
+
+
 def test_a_unit_starts_the_same_and_an_actuators_is_watched() -> None:
     text = up.unit("robot", up.program("robot", "actuator", PATH))
     assert text.startswith("# /etc/systemd/system/zteleop-robot.service\n[Unit]\n")

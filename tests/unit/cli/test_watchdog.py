@@ -46,7 +46,9 @@ def watch(node: FakeNode, clock: Clock, capsys: Any) -> Watch:
 
 def test_a_line_tells_the_robot_and_what_its_watchdog_sees(watch: Watch) -> None:
     (line,) = watch(dog())
-    assert line.startswith("archangel  watching: the actuator steps, last 12 ms ago; sees pulses of rest")
+    assert line.startswith(
+        "archangel  watching: the actuator steps, within the last 50 ms; sees pulses of rest"
+    )
     assert line.endswith("; 7 commands heard")
 
 

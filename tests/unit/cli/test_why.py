@@ -55,7 +55,7 @@ def test_a_line_for_the_robot_and_one_for_each_layer(monkeypatch: pytest.MonkeyP
         "archangel is driving: keyboard drives",
         "  operator  keyboard 00ff operates",
         "  limiter   passes it on as asked",
-        "  watchdog  watching: the actuator steps, last 12 ms ago; sees pulses of rest, "
+        "  watchdog  watching: the actuator steps, within the last 50 ms; sees pulses of rest, "
         "and hears no command that allows motion now",
         "  at        2026-11-28 21:40:05 UTC",
     ]

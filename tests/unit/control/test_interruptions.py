@@ -164,6 +164,13 @@ def test_of_two_operators_the_one_who_drove_keeps_the_place(robot: Robot) -> Non
     assert begins_anew(robot, "b")
 
 
+def test_who_waits_for_somebody_who_is_lost_is_told_when_that_one_has_lost_the_place(robot: Robot) -> None:
+    robot.hold(FORWARD, 0.5, sender="a")
+    said = [robot.say(FORWARD, "b") for _ in range(30) if robot.wait(0.1)]
+    assert said[:15] == [Refusal.HELD] * 15
+    assert said[-5:] == [Refusal.WAITED] * 5
+
+
 def test_of_two_operators_the_one_who_waits_has_it_when_the_other_is_gone(robot: Robot) -> None:
     robot.hold(FORWARD, 0.5, sender="a")
     assert robot.say(FORWARD, "b") is Refusal.HELD
@@ -424,7 +431,7 @@ def test_who_is_back_and_refused_is_not_called_gone(robot: Robot) -> None:
     robot.hold(FORWARD, 0.5)
     robot.drive.admission.withdraw(1, robot.now)
     robot.wait(3.0)
-    assert "gone" in robot.step().why
+    assert "not heard any more" in robot.step().why
     assert not drives_on(robot)
     step = robot.step()
     assert (step.state, step.why.partition(":")[0]) == ("idle", "nobody drives; keyboard 0001 is refused")
@@ -435,7 +442,8 @@ def test_who_is_back_in_time_is_told_of_his_next_act(robot: Robot) -> None:
     robot.drive.admission.withdraw(1, robot.now)
     robot.wait(0.5)
     robot.hold(FORWARD, 0.1, act=False)
-    assert robot.step().why == "keyboard 0001 is gone from the bus; whoever begins drives"
+    gone = "keyboard 0001 is not heard any more: ended, suspended or cut off; whoever begins drives"
+    assert robot.step().why == gone
 
 
 def test_whoever_is_silent_is_called_so_while_another_is_refused(robot: Robot) -> None:

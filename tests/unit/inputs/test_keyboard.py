@@ -6,9 +6,10 @@ from unit.inputs.typist import Typist
 from zteleop.control.stick import Speeds, Stick, to_twist
 from zteleop.errors import ConfigError
 from zteleop.inputs import Wish
-from zteleop.inputs.held_keys import FIRST, REPEATING
+from zteleop.inputs.held_keys import FIRST, HELD_BEFORE, REPEATING
 from zteleop.inputs.holding import UNCONFIRMED
 from zteleop.inputs.keymap import bindings, describe
+from zteleop.inputs.wishes import MISSED_FOR
 from zteleop.messages import Channel, Vehicle
 
 DELETE = b"\x7f"
@@ -380,12 +381,29 @@ def test_a_key_can_be_unbound(car):
     assert typist.keyboard.bound["forward"] == "up"
 
 
+def test_a_key_that_does_nothing_says_so_for_a_moment(step):
+    step.type(b"y")
+    assert step.keyboard.in_vain == "y does nothing here; ? shows what each key does"
+    step.type(b"", after=MISSED_FOR)
+    assert not step.keyboard.in_vain
+    step.type(b"y")
+    step.type(UP)
+    assert not step.keyboard.in_vain, "what was pressed last does something"
+
+
+def test_a_key_that_is_let_go_or_bound_to_nothing_on_purpose_says_nothing(car):
+    typist = Typist("step", car, keys={"w": "nothing"})
+    typist.type(b"w")
+    typist.type(b"\x1b[121;1:3u")
+    assert not typist.keyboard.in_vain
+
+
 def test_taps_that_follow_a_reset_too_soon_are_told(step):
     step.type(UP)
     step.keyboard.reset(step.now)
     step.type(UP, after=0.36)
     assert step.ticks() is None
-    assert step.keyboard.in_vain == f"let go for {FIRST} s"
+    assert step.keyboard.in_vain == HELD_BEFORE
     step.type(UP, after=FIRST + 0.01)
     assert step.ticks() == (375, 371)
     assert "guessed" in step.keyboard.certainty

@@ -488,7 +488,7 @@ def test_a_sender_whose_process_is_gone_lets_go_at_once(robot: Robot) -> None:
     assert robot.chip.pulses == NEUTRAL
     assert (robot.status.state, robot.status.why) == (
         "link lost",
-        "keyboard 0007 is gone from the bus; whoever begins drives",
+        "keyboard 0007 is not heard any more: ended, suspended or cut off; whoever begins drives",
     )
 
 

@@ -95,6 +95,17 @@ def test_two_stops_said_in_turns_are_two_reasons() -> None:
     assert reasons(stop(7), stop(8), stop(7), stop(8)) == ["stop", "stop", None, None]
 
 
+def test_another_stop_of_a_robot_that_stands_stopped_is_no_reason() -> None:
+    assert reasons(status("idle"), status("stopped", stop=7), stop(8)) == [None, "stop", None]
+    assert reasons(status("idle"), status("stopped", stop=7), status("stopped", stop=8)) == [
+        None,
+        "stop",
+        None,
+    ]
+    again = (status("stopped", stop=7), stop(8), status("stopped", stop=8), status("idle"), stop(9))
+    assert reasons(*again) == [None, None, None, None, "stop"]
+
+
 def test_a_stop_says_who_and_why() -> None:
     found = Triggers().hear(stop(7, why="a child"))
     assert found
