@@ -7,7 +7,7 @@ from collections.abc import Callable
 from itertools import cycle
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from figures import is_quick, print_table, verdict
 from robot import LEFT, RAW_LINE, RIGHT, Operator, Robot
@@ -36,6 +36,8 @@ class Running(Protocol):
     pid: int
 
 
+SUBSCRIBED = "subscriber: Node, handler"
+PEER = "peer: raw zenoh subscriber"
 PARTS = ("door", "actuator", "blackbox")
 """What a watchdog starts."""
 
@@ -61,8 +63,16 @@ def cpu_seconds(process: Running) -> float:
     return sum(int(task.read_text().split()[0]) for task in tasks) / 1e9
 
 
-def main() -> None:
-    seconds = 2.0 if is_quick(__doc__) else 10.0
+class Cost(NamedTuple):
+    """What a process costs: MB of its own, and percent of a core at rest and driven."""
+
+    mb: float
+    idle: float
+    driven: float
+
+
+def measure(seconds: float) -> dict[str, Cost]:
+    """Return what each process of a robot, of its operator and of others costs."""
     with Robot() as robot:
         operator = Operator(robot)
         for _ in operator.steer(20):
@@ -71,27 +81,36 @@ def main() -> None:
             **parts_of(robot.actuator),
             "keyboard": operator.process,
             "sim": robot.start("sim", "--connect", robot.endpoint, "--listen", "tcp/127.0.0.1:0"),
-            "subscriber: Node, handler": _python(robot, SUBSCRIBER),
-            "peer: raw zenoh subscriber": _python(robot, RAW_SUBSCRIBER),
+            SUBSCRIBED: _python(robot, SUBSCRIBER),
+            PEER: _python(robot, RAW_SUBSCRIBER),
         }
         time.sleep(6)  # until the operator counts as idle
         idle = _shares(processes, lambda: time.sleep(seconds))
         driven = _shares(processes, lambda: _drive(operator, seconds))
-        rows = []
-        for name, process in processes.items():
-            memory = private_mb(process)
-            target = "" if name.startswith("peer") else verdict(memory, MEMORY_TARGET, "MB")
-            ours = name in ("watchdog", "actuator", "door")
-            cpu = verdict(max(idle[name], driven[name]), CPU_TARGET, "%") if ours else ""
-            rows.append((name, memory, target, idle[name], driven[name], cpu))
-    rows.insert(len(PARTS) + 1, _in_all([row for row in rows if row[0] in ("watchdog", *PARTS)]))
+        return {
+            name: Cost(private_mb(process), idle[name], driven[name]) for name, process in processes.items()
+        }
+
+
+def in_all(costs: dict[str, Cost]) -> Cost:
+    """Return what a robot costs: all that its watchdog has started, and that itself."""
+    parts = [costs[name] for name in ("watchdog", *PARTS)]
+    return Cost(*(sum(figures) for figures in zip(*parts, strict=True)))
+
+
+def main() -> None:
+    seconds = 2.0 if is_quick(__doc__) else 10.0
+    costs = measure(seconds)
+    rows: list[tuple[object, ...]] = []
+    for name, cost in costs.items():
+        target = "" if name == PEER else verdict(cost.mb, MEMORY_TARGET, "MB")
+        ours = name in ("watchdog", "actuator", "door")
+        cpu = verdict(max(cost.idle, cost.driven), CPU_TARGET, "%") if ours else ""
+        rows.append((name, cost.mb, target, cost.idle, cost.driven, cpu))
+    mb, idle, driven = in_all(costs)
+    rows.insert(len(PARTS) + 1, ("the robot in all", mb, "", idle, driven, ""))
     head = ["process", "own MB", "target", "% idle", "% driven", "target"]
     print_table(f"memory and share of one core over {seconds:g} s, at rest and driven at 20 Hz", head, rows)
-
-
-def _in_all(rows: list[tuple[object, ...]]) -> tuple[object, ...]:
-    memory, idle, driven = (sum(float(str(row[column])) for row in rows) for column in (1, 3, 4))
-    return ("the robot in all", memory, "", idle, driven, "")
 
 
 def _shares(processes: dict[str, Running], act: Callable[[], None]) -> dict[str, float]:

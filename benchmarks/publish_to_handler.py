@@ -65,9 +65,8 @@ def find_python(name: str) -> str | None:
     return None
 
 
-def main() -> None:
-    quick = is_quick(__doc__)
-    rounds, count = (1, 100) if quick else (12, 200)
+def time_ways(rounds: int, count: int) -> dict[str, list[float]]:
+    """Return the us of each message by each way that there is here, taken in turn."""
     with ExitStack() as stack:
         ways = {name: Way(name, python, stack) for name in WAYS if (python := find_python(name))}
         time.sleep(2)
@@ -77,11 +76,17 @@ def main() -> None:
         for _ in range(rounds):
             for way in ways.values():
                 way.say(count)
-    rows = []
-    for name, way in ways.items():
-        ratio, woken = (median(way.samples) / median(ways[peer].samples) for peer in ("raw", "raw_handed"))
+    return {name: way.samples for name, way in ways.items()}
+
+
+def main() -> None:
+    quick = is_quick(__doc__)
+    rounds, count = (1, 100) if quick else (12, 200)
+    ways, rows = time_ways(rounds, count), []
+    for name, samples in ways.items():
+        ratio, woken = (median(samples) / median(ways[peer]) for peer in ("raw", "raw_handed"))
         target = verdict(ratio, TARGET, "x raw") if name == "zteleop" else ""
-        figures = (median(way.samples), p99(way.samples), len(way.samples), ratio, woken)
+        figures = (median(samples), p99(samples), len(samples), ratio, woken)
         rows.append((WAYS[name], *figures, target))
     way = "way, 100 Hz, TwistStamped or as many bytes"
     head = [way, "p50 us", "p99 us", "heard", "of raw", "of raw, woken", "target"]

@@ -25,44 +25,50 @@ with zenoh.open(config) as session:
     print(msgspec.json.decode(sample.payload.to_bytes()))
 """
 HEAD = ("command", "p50", "slowest", "over python", "of the peer", "target here")
-PEER = 3
+PYTHON, PEER = "python -c pass", "peer: raw zenoh + msgspec + argparse"
 Told = tuple[str, Sequence[str], float | None]
 
 
 def commands(endpoint: str) -> list[Told]:
     """Return what is timed: its name, its command, and the ms it may take beside a quick Python."""
     where = ["-e", endpoint, "--no-multicast-scouting"]
-    topic, raw_echo = f"{ROBOT}/drive_status", [sys.executable, "-c", RAW_ECHO]
+    topic, raw_echo = f"{ROBOT}/beat", [sys.executable, "-c", RAW_ECHO]
     return [
-        ("python -c pass", [sys.executable, "-c", "pass"], None),
+        (PYTHON, [sys.executable, "-c", "pass"], None),
         ("zteleop --help", [ZTELEOP, "--help"], 40),
         ("zteleop echo --once", [ZTELEOP, "echo", topic, "--once", *where], 120),
-        ("peer: raw zenoh + msgspec + argparse", [*raw_echo, f"robot/{topic}", "-e", endpoint], None),
+        (PEER, [*raw_echo, f"robot/{topic}", "-e", endpoint], None),
         ("zteleop list", [ZTELEOP, "list", *where], 120),
         ("(python -c 'import zenoh, msgspec')", [sys.executable, "-c", "import zenoh, msgspec"], None),
     ]
 
 
-def main() -> None:
-    runs = 3 if is_quick(__doc__) else 20
+def time_commands(runs: int) -> dict[str, list[float]]:
+    """Return the ms of each run of each command, taken in turn."""
     with Robot() as robot:
         environment = robot.environment | {"ZENOH_RUNTIME": ONE_THREAD}
         told = commands(robot.endpoint)
-        samples: list[list[float]] = [[] for _ in told]
+        samples: dict[str, list[float]] = {name: [] for name, _, _ in told}
         for _ in range(runs):
-            for (name, command, _), taken in zip(told, samples, strict=True):
+            for name, command, _ in told:
                 began = time.perf_counter()
                 with running(command, stdout=subprocess.PIPE, env=environment, cwd=robot.folder) as process:
                     process.communicate(timeout=10)
-                    taken.append(1000 * (time.perf_counter() - began))
+                    samples[name].append(1000 * (time.perf_counter() - began))
                 if process.returncode:
                     raise SystemExit(f"{name} ended with {process.returncode}")
-    python, peer = median(samples[0]), median(samples[PEER])
+    return samples
+
+
+def main() -> None:
+    runs = 3 if is_quick(__doc__) else 20
+    samples = time_commands(runs)
+    python, peer = median(samples[PYTHON]), median(samples[PEER])
     rows = []
-    for (name, _, most), taken in zip(told, samples, strict=True):
-        p50 = median(taken)
+    for name, _, most in commands(""):
+        p50 = median(samples[name])
         target = verdict(p50, paced(most, python), "ms") if most else ""
-        rows.append((name, p50, p99(taken), p50 - python, p50 / peer, target))
+        rows.append((name, p50, p99(samples[name]), p50 - python, p50 / peer, target))
     print_table(f"start to end, ms, {runs} runs in turn", HEAD, rows)
     print("a topic that is said 20 times a second costs 25 ms of waiting on the average")
 

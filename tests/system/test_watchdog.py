@@ -88,7 +88,7 @@ def test_a_second_actuator_of_the_same_robot_disturbs_nobody(rig: Rig) -> None:
 
 def test_what_the_watchdog_sees_can_be_asked(rig: Rig) -> None:
     bench = Bench(rig, rig.actuator())
-    watching = "watching: the actuator steps, last "
+    watching = "watching: the actuator steps, "
     with bench.driven():
         seen = rig.result("watchdog", "--once", *rig.bus_options())
         why = rig.result("why", *rig.bus_options())

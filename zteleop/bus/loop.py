@@ -18,6 +18,8 @@ FAR = float("inf")
 LONGEST_WAIT = 60.0
 OVERSLEPT = 0.5
 """s after its time at which a loop wakes, or ends an action, that stood still: suspended, or in a sleep"""
+ROUNDING = 1e-6
+"""s, of which the next time of a schedule may lie ahead only because times are no whole numbers"""
 RING = b"!"
 """a byte that is no signal's number"""
 
@@ -28,6 +30,8 @@ class Timer(Struct):
     period: float | None
     action: Action
     due: float
+    origin: float = 0.0
+    """A moment of its schedule, which it keeps at any pace: timers made together fire together."""
 
     def ring_at(self, due: float) -> None:
         """Fire at a time of the bus clock."""
@@ -35,15 +39,20 @@ class Timer(Struct):
 
     def pace(self, period: float, now: float) -> None:
         """Fire at another period from now on, the next time within one of it."""
-        self.period = period
-        self.due = min(self.due, now + period)
+        if period != self.period:
+            self.period = period
+            self.due = min(self.due, self._next(period, now))
 
     def reschedule(self, now: float) -> None:
         """Take the next time of the schedule that lies ahead."""
         if self.period is None:
             self.due = FAR
         else:
-            self.due += self.period * (1 + (now - self.due) // self.period)
+            self.due = self._next(self.period, now)
+
+    def _next(self, period: float, now: float) -> float:
+        ahead = self.origin + period * (1 + (now - self.origin) // period)
+        return ahead if ahead > now + ROUNDING else ahead + period
 
 
 class Loop:
@@ -93,7 +102,8 @@ class Loop:
 
     def every(self, period: float, action: Action) -> Timer:
         """Run an action every `period` seconds, the first time at once."""
-        timer = Timer(period, action, clock.now())
+        now = clock.now()
+        timer = Timer(period, action, now, now)
         self._timers.append(timer)
         return timer
 
@@ -148,12 +158,12 @@ class Loop:
         self._stir(timeout)
         if self._ear in readable:
             self._answer()
+        for file in readable:  # first: what they bring need not wait for another round
+            if file in self._files:
+                self._run(self._files[file])
         for _ in range(len(self._ready)):
             if self._running:  # else the next run does it
                 self._run(self._ready.popleft())
-        for file in readable:
-            if file in self._files:
-                self._run(self._files[file])
         self._run_timers()
 
     def _run_timers(self) -> None:

@@ -50,6 +50,7 @@ class Node:
         session: Session | None = None,
     ) -> None:
         self._commands: list[Publisher[Any]] = []
+        self._has_spun = False
         self.name = chunk(name, "a node's name")
         self.robot = robot_name(robot) if robot else None
         self._hint = "" if bus or session else READS_NO_FILE
@@ -84,7 +85,7 @@ class Node:
         """Let go of every robot and leave the bus: others see this node go, and its threads end."""
         try:
             for commands in self._commands:
-                commands.leave()
+                commands.leave(tell_brief=not self._has_spun)
         finally:
             self.membership.close()
             stderr.flush()
@@ -270,6 +271,7 @@ class Node:
 
     def spin(self, seconds: float | None = None) -> None:
         """Run handlers and timers until `stop`, a signal, or for some seconds."""
+        self._has_spun = True
         self.membership.spin(seconds)
 
     def stop(self) -> None:

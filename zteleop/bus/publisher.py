@@ -81,10 +81,13 @@ class Publisher(Generic[M]):
             if rest := neutral(self._said, self._heard.vehicle):
                 self._put(rest, *self._encode(rest))
 
-    def leave(self) -> None:
-        """Let go of what this publisher moves, if anything: its program ends in order, and is not lost."""
+    def leave(self, tell_brief: bool = False) -> None:
+        """Let go of what this publisher moves, if anything: its program ends in order, and is not lost.
+
+        To one that said its command once, and ends, it can be told what becomes of that.
+        """
         if self._prover and self._prover.moving:
-            if self._answer:
+            if self._answer and tell_brief:
                 self._answer.end(clock.now() - self._moving_since)
             self.let_go()
 

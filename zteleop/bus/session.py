@@ -16,6 +16,8 @@ class Sample(NamedTuple):
     attachment: bytes | None = None
     is_put: bool = True
     """False: a delete; of a token, that it is gone"""
+    at: float = 0.0
+    """when it came to this machine, by the bus clock; 0 where nobody took note"""
 
 
 class Question(NamedTuple):
@@ -117,6 +119,9 @@ class Session(Protocol):
 
     def deliver(self, inbox: Inbox, handler: Callable[[Any], object], loop: Loop) -> Delivery:
         """Hand what arrives to a handler in a loop, one message a round."""
+
+    def attend(self, tell: Callable[[], object], loop: Loop, within: float) -> None:
+        """Tell in a loop that something has arrived in some ring, at most `within` s after it did."""
 
     def close(self) -> None:
         """Leave the bus."""

@@ -76,7 +76,7 @@ class Subscription(Generic[M]):
 
     def read(self, sample: Sample) -> Received[M] | None:
         """Return the message in a sample; None, counted and said, when it is none."""
-        key, payload, encoding, attachment, is_put = sample
+        key, payload, encoding, attachment, is_put, _ = sample
         if not is_put or "*" in key:
             self._drop(key, "a delete or a wildcard is no message")
             return None

@@ -1,6 +1,7 @@
 """Everything that is said of one robot, as it came: nothing is decoded, and nobody is held up."""
 
 from collections.abc import Iterable, Iterator
+from operator import attrgetter
 from typing import NamedTuple
 
 from zteleop.bus import clock
@@ -22,7 +23,7 @@ class Raw(NamedTuple):
     """A message in its bytes."""
 
     at: float
-    """when it was taken, by the bus clock"""
+    """when it came, or was taken where nobody took note of that, by the bus clock"""
     path: str
     """its key below the robot; the whole key where that has a wildcard"""
     encoding: str
@@ -49,10 +50,11 @@ class Tap:
         self._publications = Publications(session, robot)
 
     def take(self) -> Iterator[Raw]:
-        """Yield what has arrived, topic by topic, without waiting; what is commanded before what is said.
+        """Yield what has arrived, in its order, without waiting.
 
-        Nobody says what he was commanded before the command has arrived. So who commands is asked last, and
-        told first: else an effect that came between two looks would be told before its cause.
+        Where nobody took note of that, what is commanded comes first: nobody says what he was commanded
+        before the command has arrived. So who commands is asked last, too: else an effect that came between
+        two looks would be told before its cause.
         """
         come, gone = self._publications.changes()
         new = come - self._inboxes.keys() - self._paused.keys()
@@ -64,9 +66,8 @@ class Tap:
             self._hear(path)
         heard = list(self._inboxes)
         said = [raw for path in heard if not _is_commanded(path) for raw in self._empty(path, now)]
-        for path in filter(_is_commanded, heard):
-            yield from self._empty(path, now)
-        yield from said
+        commanded = [raw for path in heard if _is_commanded(path) for raw in self._empty(path, now)]
+        yield from sorted(commanded + said, key=attrgetter("at"))
         for path in gone.difference(self._known):  # their last words are taken
             self._paused.pop(path, None)
             self._leave(path)
@@ -97,4 +98,5 @@ def _is_commanded(path: str) -> bool:
 
 
 def _raw(sample: Sample, path: str, now: float) -> Raw:
-    return Raw(now, path, sample.encoding, sample.payload, sample.attachment or b"", not sample.is_put)
+    at, attachment = sample.at or now, sample.attachment or b""
+    return Raw(at, path, sample.encoding, sample.payload, attachment, not sample.is_put)

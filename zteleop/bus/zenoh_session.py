@@ -133,6 +133,9 @@ class ZenohSession:
     def deliver(self, inbox: Inbox, handler: Callable[[Any], object], loop: Loop) -> Pump:
         return Pump(inbox, handler, loop)
 
+    def attend(self, tell: Callable[[], object], loop: Loop, within: float) -> None:
+        loop.every(within, tell)
+
     def close(self) -> None:
         self.zenoh.close()  # type: ignore[no-untyped-call]
         for ring in self._overheard:

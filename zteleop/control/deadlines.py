@@ -14,6 +14,8 @@ LINK_LOSS = 2.0
 """of silence, after which whoever drove begins anew, from neutral"""
 STEP_EVERY = 0.02
 """between two steps of the actuator, and two looks of the watchdog at its clock"""
+STEADY_EVERY = 0.05
+"""the same, while the pulses stay as they are"""
 LATE_STEP = 0.2
 """between two steps, after which a process knows that it was stopped itself"""
 ACTUATOR_SILENCE = 0.25

@@ -82,9 +82,15 @@ class Judge:
         """Learn that somebody released a stop: no claim from before may go on."""
         self.released = now
 
-    def last_counted(self, sender: int) -> float:
-        """Return when a command of a sender last counted here."""
-        return self._admission.gate.last_counted(sender)
+    def correct(self, standing: Standing) -> Standing:
+        """Return where an actuator stood, with what it may not have heard: the release of a stop.
+
+        Who drove goes on by what both have counted: what the watchdog slept through, this has not, and
+        would stop whoever goes on by it.
+        """
+        counted = min(standing.counted, self._admission.gate.last_counted(standing.sender))
+        floor = max(standing.floor, self.released)
+        return standing._replace(floor=floor, counted=max(counted, 0.0))  # JSON has no infinity
 
     def receive(self, source: str, command: Twist | Pwm, proof: Proof | None, now: float) -> Refusal | None:
         """Judge a command that the watchdog heard itself."""

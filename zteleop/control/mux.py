@@ -70,7 +70,13 @@ class Silences:
         return not now - claim.acted <= self.operator
 
     def over(self, claim: Claim, now: float) -> bool:
+        """Say whether it is over for any of these reasons."""
         return self.silent(claim, now) or self.idle(claim, now)
+
+    def end(self, claim: Claim) -> float:
+        """Return the last moment at which it is not over, where nothing more is heard and nobody acts."""
+        silence = self._of[claim.source]
+        return min(claim.at + silence, claim.beat + silence + HEARD_LATE, claim.acted + self.operator)
 
 
 class Claims(Protocol):

@@ -43,10 +43,10 @@ class ChipMemory:
         self._open()
 
     def __getitem__(self, place: slice) -> bytes:
-        return self._present()[place]
+        return self.present()[place]
 
     def __setitem__(self, place: slice, data: bytes) -> None:
-        self._present()[place] = data
+        self.present()[place] = data
 
     def __enter__(self) -> Self:
         return self
@@ -57,7 +57,8 @@ class ChipMemory:
     def close(self) -> None:
         self._memory.close()
 
-    def _present(self) -> mmap:
+    def present(self) -> mmap:
+        """Return the bytes of the file that is there now, for what is done with them at once."""
         try:
             found = os.stat(self._path)
             same = (found.st_ino, found.st_size) == (self._number, FILE_SIZE)

@@ -47,17 +47,17 @@ class SimulatedI2C:
 
     def transfer(self, address: int, blocks: Sequence[Block]) -> None:
         """Write all blocks in one transaction, or raise OSError with the kernel's errno."""
-        self._select(address)
-        if self._troubled() and (fault := next_fault(self.name, sum(len(data) for _, data in blocks))):
-            self.chip.write(cut(blocks, fault.after_bytes))
+        chip = self._select(address)
+        if _troubled(chip) and (fault := next_fault(self.name, sum(len(data) for _, data in blocks))):
+            chip.write(cut(blocks, fault.after_bytes))
             _fail(fault)
-        self.chip.write(blocks)
+        chip.write(blocks)
 
     def read_i2c_block_data(self, address: int, register: int, length: int) -> list[int]:
-        self._select(address)
-        if self._troubled() and (fault := next_fault(self.name)):
+        chip = self._select(address)
+        if _troubled(chip) and (fault := next_fault(self.name)):
             _fail(fault)
-        return list(self.chip.read(register, length))
+        return list(chip.read(register, length))
 
     def read_byte_data(self, address: int, register: int) -> int:
         return self.read_i2c_block_data(address, register, 1)[0]
@@ -75,12 +75,12 @@ class SimulatedI2C:
         if isinstance(self.chip.memory, ChipMemory):
             self.chip.memory.close()
 
-    def _select(self, address: int) -> None:
+    def _select(self, address: int) -> Chip:
+        """Return the chip at an address, for one transaction: its file is looked at once for all of it."""
         if address != self.address:
             raise OSError(EREMOTEIO, "nobody answers")
-
-    def _troubled(self) -> bytes | bytearray:
-        return self.chip.memory[FAULTS].strip(b"\0")
+        memory = self.chip.memory
+        return Chip(memory.present()) if isinstance(memory, ChipMemory) else self.chip
 
 
 class Registers:
@@ -145,6 +145,10 @@ def default_path(robot: str = "robot") -> str:
     """Return where a robot's simulated chip is, in the user's runtime folder."""
     folder = os.environ.get("XDG_RUNTIME_DIR") or f"/tmp/zteleop-{os.getuid()}"
     return f"{folder}/zteleop/{robot}.pca9685"
+
+
+def _troubled(chip: Chip) -> bytes:
+    return chip.memory[FAULTS].strip(b"\0")
 
 
 def _fail(fault: Fault) -> None:

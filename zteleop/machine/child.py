@@ -1,6 +1,8 @@
 """The actuator as the watchdog sees it: a process that is started, heard, killed, and started again."""
 
+import os
 import subprocess
+import sys
 from collections.abc import Sequence
 from contextlib import suppress
 
@@ -27,6 +29,8 @@ class Child:
         self._shared = shared
         self._process: subprocess.Popen[bytes] | None = None
         self.link: WatchdogEnd | None = None
+        self._end: int | None = None
+        """turns readable when the process ends, where the system has such a thing"""
         self.newest: Report | None = None
         self.stopped_since: float | None = None
         """When it first said that it rests for a stop, which it has said ever since."""
@@ -51,6 +55,7 @@ class Child:
                 pass_fds=[theirs.fileno(), *self._shared],
                 start_new_session=True,
             )
+        self._end = _end_of(self._process.pid)
         assert self._process.stdin
         with suppress(BrokenPipeError), self._process.stdin as settings:
             settings.write(self._settings + b"\n" + msgspec.json.encode(standing))
@@ -58,6 +63,11 @@ class Child:
         self.stopped_since = None
         self.started = now
         self.starts += 1
+
+    def fileno(self) -> int:
+        """Return what turns readable when it ends, and is not woken by each report where that can be."""
+        assert self.link
+        return self.link.fileno() if self._end is None else self._end
 
     def hear(self, now: float) -> None:
         """Take in its reports; raises EOFError when it is gone."""
@@ -91,8 +101,20 @@ class Child:
         if self.link:
             self.link.close()
             self.link = None
+        if self._end is not None:
+            os.close(self._end)
+            self._end = None
         return self._process.returncode
 
     def pause(self, now: float) -> float:
         """Return for how long to wait before the next start."""
         return self._backoff.pause(now - self.started)
+
+
+def _end_of(process: int) -> int | None:
+    """Return a descriptor that turns readable when a process ends; None where the system has none."""
+    if sys.platform != "linux":
+        return None
+    with suppress(OSError):  # a kernel from before 5.3, or no descriptor that is free
+        return os.pidfd_open(process)
+    return None

@@ -13,7 +13,7 @@ from zteleop.machine.vigil import Vigil
 
 ALIVE = b"."
 """What a door says to its watchdog every `ALIVE_EVERY` s."""
-ALIVE_EVERY = 0.05
+ALIVE_EVERY = 0.1
 MALLOC = {"MALLOC_ARENA_MAX": "1"}
 """for glibc: where each thread has an arena of its own, what thousands of sessions leave is not used again"""
 ENDS_WITHIN = 1.0

@@ -11,9 +11,9 @@ from contextlib import suppress
 from itertools import cycle
 from typing import Any, NamedTuple
 
-EVERY, LOOK_EVERY = 5.0, 0.05
+EVERY, LOOK_EVERY = 5.0, 0.1
 """s between tries, and between looks for an answer"""
-LOOKS = 40
+LOOKS = 20
 """without an answer. They count, and not the time: who stood still has not looked, and nobody is to blame"""
 NO_MESSAGE = b"\x06\x00" + bytes([255] * 6)
 """what neither zenoh nor TLS takes for a greeting: whoever is awake hangs up at once"""

@@ -1,11 +1,12 @@
 """Commands in, pulses out: the only process that moves the robot, under a watchdog that may end it."""
 
 from zteleop.bus import clock
+from zteleop.bus.loop import Timer
 from zteleop.bus.node import Node
 from zteleop.bus.subscription import Received
 from zteleop.bus.topics import TOPICS
 from zteleop.control.command import to_command
-from zteleop.control.deadlines import STEP_EVERY, WATCHDOG_SILENCE
+from zteleop.control.deadlines import STEADY_EVERY, STEP_EVERY, WATCHDOG_SILENCE
 from zteleop.control.drive import Drive, Step
 from zteleop.control.gate import Refusal
 from zteleop.control.proof import NEVER, called
@@ -27,6 +28,8 @@ from zteleop.recording.journal import Journal
 
 AT_MOST_EVERY = 0.005
 IN_A_ROW = 4
+A_MOMENT = 0.001
+"""s past a deadline; nothing is over before it has passed"""
 CHECK_EVERY = 0.2
 KEEP_EVERY = 1.0
 AS_IT_IDLES = 0.5
@@ -59,11 +62,9 @@ class Actuator:
         standing: Standing | None = None,
     ) -> None:
         self._node = node
-        self._settings = settings
         self._link = link
         self._stop_file = stop_file
         self._journal = journal
-        self._health = health
         now = self._since = clock.now()
         if standing and not keeps_settings(driver):
             self._tell_chip(f"{FORGOT}; whoever drove must let go first")
@@ -85,24 +86,19 @@ class Actuator:
         self._step = self._drive.step(self._watched)
         self._answered = float("-inf")
         self._soon = node.membership.loop.alarm(self._answer)
+        self._silence = node.membership.loop.alarm(self._advance)
+        self._clock = self._keep_time(health)
 
     def run(self) -> None:
         """Drive until the node is stopped, then leave the chip at neutral."""
         why = ""
         try:
-            for source in self._settings.known_sources:
+            for source in self._drive.settings.known_sources:
                 for topic in ("cmd_vel", "pwm"):
                     self._node.subscription(f"{topic}/{source}", TOPICS[topic].types, self._receive)
             self._node.subscription("stop", Stop, lambda received: self._obey(received.message))
             self._node.membership.departures(self._withdraw)
             self._node.membership.loop.watch(self._link.fileno(), self._hear_watchdog)
-            self._node.every(STEP_EVERY)(self._tick)
-            self._node.every(TOPICS["beat"].every)(lambda: self._state.tell(self._step))
-            self._node.every(TOPICS["why"].every)(lambda: self._state.describe(self._step))
-            self._node.every(CHECK_EVERY)(lambda: self._output.check(clock.now()))
-            self._node.every(KEEP_EVERY)(self._stop_file.tend)
-            if health := self._health:
-                self._node.every(LOOK_EVERY)(lambda: self._drive.movement.cap.bear(health.look(clock.now())))
             self._node.log.info(f"{self._node.robot} obeys; zteleop keyboard drives it")
             if held := self._drive.admission.latch.stops:
                 self._node.log.warn(stopped_by(held))
@@ -116,6 +112,17 @@ class Actuator:
             raise
         finally:
             self._finish(why)
+
+    def _keep_time(self, health: Health | None) -> Timer:
+        """Do each thing as often as it must be done; return what the steps go by."""
+        steps = self._node.membership.loop.every(STEP_EVERY, self._tick)
+        self._node.every(TOPICS["beat"].every)(lambda: self._state.tell(self._step))
+        self._node.every(TOPICS["why"].every)(lambda: self._state.describe(self._step))
+        self._node.every(CHECK_EVERY)(lambda: self._output.check(clock.now()))
+        self._node.every(KEEP_EVERY)(self._stop_file.tend)
+        if health:
+            self._node.every(LOOK_EVERY)(lambda: self._drive.movement.cap.bear(health.look(clock.now())))
+        return steps
 
     def _take_over(self, standing: Standing, now: float) -> None:
         """Go on in the place of an actuator that was ended for being late."""
@@ -190,6 +197,7 @@ class Actuator:
         self._notice_pause(now)
         before, self._step = self._step, self._drive.step(now)
         self._output.write(self._step.pulse_us, now)
+        self._keep_pace(before, now)
         stopped = bool(self._drive.admission.latch.stops)
         self._link.report(Report(now, stand(self._drive, self._since), stopped))
         if (self._step.state, _driver(self._step)) != (before.state, _driver(before)):
@@ -199,6 +207,13 @@ class Actuator:
                 self._step
             )  # a beat as well: whoever begins now must prove that it was after this
             self._state.describe(self._step)
+
+    def _keep_pace(self, before: Step, now: float) -> None:
+        """Step often while the pulses change, or do not arrive; else seldom, and when the claim ends."""
+        is_steady = self._step.pulse_us == before.pulse_us and self._output.is_well
+        self._clock.pace(STEADY_EVERY if is_steady else STEP_EVERY, now)
+        if claim := self._step.claim:
+            self._silence.ring_at(self._drive.admission.silences.end(claim) + A_MOMENT)
 
     def _notice_pause(self, now: float) -> None:
         """Notice that this process itself stood still: what it has heard, and not read, is from before.
@@ -210,7 +225,7 @@ class Actuator:
             return
         self._watched = now
         words = f"this process stood still for {late:.2f} s"
-        limit = self._settings.deadlines.stand_still
+        limit = self._drive.settings.deadlines.stand_still
         if late <= limit:
             self._node.log.warn(f"{words}; whoever drove goes on with the next act")
             self._drive.admission.interrupt(words, now, limit)

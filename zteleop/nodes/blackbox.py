@@ -20,7 +20,8 @@ from zteleop.recording.blackbox_file import FORMAT, Header, Reason, seconds
 from zteleop.recording.ring import Ring, Snapshot
 from zteleop.recording.triggers import WATCHDOG, Trigger, Triggers
 
-LISTEN_EVERY = 0.01
+LISTENS_WITHIN, TEND_EVERY = 0.1, 0.5
+"""s that what arrives may wait, as the door takes note when it does, and s between looks for what is due"""
 AFTERMATH = 1.0
 """s that are kept of what follows a trigger"""
 PAUSE = 10.0
@@ -102,7 +103,9 @@ class BlackBox:
     def run(self) -> None:
         """Listen until told to end, or until the watchdog is gone; write first what is due."""
         self._node.membership.loop.watch(self._ear, self._hear_watchdog)
-        self._node.every(LISTEN_EVERY)(self._listen)
+        loop = self._node.membership.loop
+        self._node.membership.session.attend(self._listen, loop, LISTENS_WITHIN)
+        self._node.every(TEND_EVERY)(self._listen)
         try:
             self._node.spin()
         finally:

@@ -57,6 +57,11 @@ class Output:
         self._armed_at = 0.0
 
     @property
+    def is_well(self) -> bool:
+        """The last pulses have arrived."""
+        return not self._failed and not self._broken
+
+    @property
     def evidence(self) -> Evidence:
         """What is known of the chip."""
         known: Confirmed = "read" if self._reads_rest else "cut" if self.is_cut else ""

@@ -11,7 +11,7 @@ OWN = ("watchdog", "actuator", "blackbox")
 NEWS = 10.0
 """s that a line of the log is shown; what it says may be over by then"""
 SILENT = 0.4
-"""s without a word, of twenty a second, after which what was said last may not be so any more"""
+"""s without a beat, of twenty a second, after which what was said last may not be so any more"""
 ODOM_LASTS = 0.5
 """s after which nobody knows where it is"""
 ANEW = "the robot was started anew; whoever drove must begin anew as well"
@@ -87,7 +87,7 @@ class Sight:
 
     def silence(self, now: float) -> float:
         """Return for how long it has said nothing, in s; 0 while that is no matter, or nobody is heard."""
-        silence = now - self._status_at
+        silence = now - max(self._status_at, self._heard.at)
         return silence if self.status and silence > SILENT else 0.0
 
     def odom(self, now: float) -> Odometry | None:

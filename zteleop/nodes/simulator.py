@@ -13,7 +13,10 @@ from zteleop.messages import Odometry
 from zteleop.sim import make_vehicle
 from zteleop.sim.body import Body
 
-PERIOD = 0.01
+PERIOD, AT_REST = 0.01, 0.05
+"""s between two looks at the chip, and while the vehicle stands"""
+STANDS = 0.001
+"""m/s, or rad/s"""
 TELL_EVERY = 1.0
 STANDS_BELOW = 0.001
 """m between two looks"""
@@ -27,13 +30,16 @@ def run(node: Node, settings: DriveSettings, path: str, show: Callable[[str], No
     channels = [servo.channel for servo in settings.servos.values()]
     then = clock.now()
 
-    @node.every(PERIOD)
     def move() -> None:
         nonlocal then
         now = clock.now()
         snapshot = registers.snapshot()
         vehicle.step({channel: read_pulse_us(snapshot, channel) for channel in channels}, now - then)
         then = now
+        stands = abs(vehicle.speed) < STANDS and abs(vehicle.yaw_rate) < STANDS
+        looks.pace(AT_REST if stands else PERIOD, now)
+
+    looks = node.membership.loop.every(PERIOD, move)
 
     @node.every(TOPICS["odom"].every)
     def tell() -> None:

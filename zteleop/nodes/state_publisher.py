@@ -5,12 +5,16 @@ from zteleop.bus.node import Node
 from zteleop.control.drive import Drive, Step
 from zteleop.control.explain import layers
 from zteleop.control.gate import Refusal
+from zteleop.control.proof import NEVER
 from zteleop.control.refusals import RefusedSenders
 from zteleop.control.report import overridden, refusals, status, to_vehicle
 from zteleop.control.snapshot import snapshot
 from zteleop.machine.stop_file import StopFile
 from zteleop.messages import Beat, DriveStatus, Refusals, Vehicle, Why
 from zteleop.nodes.output import Output
+
+REPEAT_EVERY = 0.19
+"""s between two statuses that say the same: every fourth beat"""
 
 
 class StatePublisher:
@@ -29,20 +33,32 @@ class StatePublisher:
         self._vehicles = node.publisher("vehicle", Vehicle)
         self._whys = node.publisher("why", Why)
         self._refusals = node.publisher("refusals", Refusals)
+        self._told: object = None
+        """what was news when the robot last said what it does"""
+        self._repeat_at = NEVER
 
     def note(self, sender: int, source: str, refusal: Refusal | None, now: float) -> None:
         """Remember how a command was judged, for those who must be told."""
         self._refused.note(sender, source, refusal, now)
 
     def tell(self, step: Step) -> None:
-        """Say what commands must echo from now on, and what the robot does."""
-        self._beats.publish(self._drive.admission.beat(clock.now()))
-        self.tell_status(step)
+        """Say what commands must echo from now on, and what the robot does while that is news."""
+        now = clock.now()
+        self._beats.publish(self._drive.admission.beat(now))
+        if step.claim or self._news(step) != self._told or now >= self._repeat_at:
+            self.tell_status(step)
 
     def tell_status(self, step: Step) -> None:
         """Say what the robot does."""
         chip, unkept = self._output.evidence, self._stop_file.unkept
-        self._statuses.publish(status(self._drive, step, chip, clock.now(), unkept))
+        now = clock.now()
+        self._statuses.publish(status(self._drive, step, chip, now, unkept))
+        self._told, self._repeat_at = self._news(step), now + REPEAT_EVERY
+
+    def _news(self, step: Step) -> object:
+        """Return what a robot that nobody drives would be asked for at once, if it changed."""
+        known = self._output.evidence.confirmed, self._stop_file.unkept
+        return step.state, step.why, step.pulse_us, step.bound, known
 
     def describe(self, step: Step) -> None:
         """Say what the robot is, why it does what it does, and who is refused."""

@@ -11,7 +11,7 @@ from zteleop.bus.lane.ear import Ear, Heard
 from zteleop.bus.lane.wire import Answered
 from zteleop.bus.node import Node
 from zteleop.bus.topics import TOPICS
-from zteleop.control.deadlines import GRACE, STEP_EVERY
+from zteleop.control.deadlines import GRACE, STEADY_EVERY, STEP_EVERY
 from zteleop.control.judge import Judge
 from zteleop.control.patience import Patience
 from zteleop.control.settings import DriveSettings
@@ -74,11 +74,13 @@ class Watchdog:
         words = "Ctrl-Z would leave the wheels turning, and pauses nothing; Ctrl-C ends this"
         signals.stay(lambda: self._node.membership.loop.call_soon(lambda: self._node.log.warn(words)))
         try:
-            self._start()
-            self._node.every(STEP_EVERY)(self._tick)
+            steps = self._node.membership.loop.every(
+                STEP_EVERY, lambda: steps.pace(self._tick(), clock.now())
+            )
             self._node.every(BEAT_EVERY)(self._beat)
             self._node.every(LOOK_EVERY)(self._look)
             self._node.every(TOPICS["watchdog"].every)(self._tell)
+            self._start()
             self._node.spin()
         finally:
             self._finish()
@@ -92,13 +94,14 @@ class Watchdog:
         self._restart_at = None
         self._ears.forget_beats()
         self._child.start(clock.now(), self._standing)
-        assert self._child.link
-        self._node.membership.loop.watch(self._child.link.fileno(), self._hear_actuator)
+        self._node.membership.loop.watch(self._child.fileno(), lambda: self._hear_actuator(woken=True))
 
-    def _hear_actuator(self) -> None:
+    def _hear_actuator(self, woken: bool = False) -> None:
         was_ready = self._child.ready
         try:
             self._child.hear(clock.now())
+            if woken and self._child.gone:  # whoever else may hold its end of the link
+                raise EOFError
         except EOFError:
             self._rest()  # before its process is even waited for
             self._fell("it ended", GRACE)
@@ -117,10 +120,12 @@ class Watchdog:
             self._tell_stop(stop)
         systemd.notify("READY=1")
 
-    def _tick(self) -> None:
-        """Take in what the bus says, and notice silence."""
+    def _tick(self) -> float:
+        """Take in what the bus says, and notice silence; return when to do so again, in s."""
         now = clock.now()
         self._patience.tick(now)
+        if self._child.link:
+            self._hear_actuator()
         for heard in self._lane.take(now) if self._lane else ():
             self._obey(heard, now)
         if ignored := self._ears.listen(now):
@@ -130,6 +135,7 @@ class Watchdog:
         elif self._patience.is_over(self._child.silence(now), self._hand.took, self._child.ready, now):
             why = self._patience.lose(self._child.silence(now), self._child.ready)
             self._fell(why, 0.0, late=True)
+        return STEP_EVERY if self._judge.moving or self._state != "watching" else STEADY_EVERY
 
     def _beat(self) -> None:
         report = self._child.newest
@@ -199,7 +205,7 @@ class Watchdog:
         """
         now = clock.now()
         if self._child.link:
-            self._node.membership.loop.unwatch(self._child.link.fileno())
+            self._node.membership.loop.unwatch(self._child.fileno())
         code = self._child.end(wait)
         why += signals.ending(code) if wait else ""  # it ended by itself, or somebody ended it
         self._rest()
@@ -214,17 +220,9 @@ class Watchdog:
         self._tell_status()
 
     def _remember(self) -> Standing | None:
-        """Return where the actuator stood, and what it may not have heard: the release of a stop.
-
-        Who drove goes on by what both have counted: what this process slept through, the judge has not,
-        and would stop whoever goes on by it.
-        """
-        last = self._child.newest
-        if not (standing := last.standing if last else self._standing):
-            return None
-        counted = min(standing.counted, self._judge.last_counted(standing.sender))
-        floor = max(standing.floor, self._judge.released)
-        return standing._replace(floor=floor, counted=max(counted, 0.0))  # JSON has no infinity
+        """Return where the actuator stood, as far as another may go on from there."""
+        standing = self._child.newest.standing if self._child.newest else self._standing
+        return self._judge.correct(standing) if standing else None
 
     @property
     def _never_stepped(self) -> bool:

@@ -22,8 +22,8 @@ from zteleop.machine.newcomer import LOOK_EVERY, Newcomer, own_listeners
 from zteleop.processes import PROGRAMS
 
 PROGRAM = PROGRAMS["door"]
-PROVE_EVERY = 0.25
-"""s; 50 us of work each"""
+PROVE_EVERY = 0.3
+"""s; 50 us of work each. A multiple of what wakes this process anyway"""
 FILES = 1024
 """that may be open, which is as many as `select` takes: zenoh's own limits lie below it"""
 BROKEN = 70

@@ -59,7 +59,6 @@ def run(settings: Config, hand: PulseDriver, joined: Callable[[Node], object]) -
             return code
         node = stack.enter_context(_join(robot, session))
         door.tell = node.log.error
-        node.every(LOOK_EVERY)(lambda: door.tend(clock.now()))
         joined(node)
         pin = output_enable(settings.driver, chip)
         if pin:
@@ -71,6 +70,7 @@ def run(settings: Config, hand: PulseDriver, joined: Callable[[Node], object]) -
         stop_file = StopFile(config.state_folder(robot) / "stop", node.log.error)
         lane = stack.enter_context(closing(Ear(robot, bus, node.log.warn)))
         dog = Watchdog(node, settings.drive, hand, child, stop_file, _switch(node, pin), recorder, lane)
+        node.every(LOOK_EVERY)(lambda: door.tend(clock.now()))  # last: it shares its wakes with the dog's
         return dog.run()
 
 

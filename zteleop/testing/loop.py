@@ -14,6 +14,7 @@ class FakeLoop:
     def __init__(self, clock: Clock) -> None:
         self.clock = clock
         self.timers: list[Timer] = []
+        self._periods: list[float | None] = []
         self.watched: dict[int, Action] = {}
         """What is done when a file can be read."""
         self.stopped = False
@@ -22,7 +23,7 @@ class FakeLoop:
 
     def every(self, period: float, action: Action) -> Timer:
         """Run an action every `period` seconds, the first time at once."""
-        return self._add(Timer(period, action, self.clock.time))
+        return self._add(Timer(period, action, self.clock.time, self.clock.time))
 
     def alarm(self, action: Action) -> Timer:
         """Return a timer that runs an action once, whenever it is set."""
@@ -43,9 +44,9 @@ class FakeLoop:
         return [timer for timer in self.timers if timer.period is None]
 
     def run(self, period: float) -> None:
-        """Run the timers of that period, due or not."""
-        for timer in self.timers:
-            if timer.period == period:
+        """Run the timers that were made with that period, due or not."""
+        for made_with, timer in zip(self._periods, self.timers, strict=True):
+            if made_with == period:
                 timer.action()
 
     def ring(self, now: float) -> None:
@@ -71,4 +72,5 @@ class FakeLoop:
 
     def _add(self, timer: Timer) -> Timer:
         self.timers.append(timer)
+        self._periods.append(timer.period)
         return timer

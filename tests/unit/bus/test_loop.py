@@ -54,12 +54,25 @@ def pipe() -> Iterator[tuple[int, int]]:
 def test_a_timer_keeps_another_pace_from_now_on(loop: Loop, clock: Clock) -> None:
     start, times = clock.time, []
     timer = loop.every(0.2, lambda: times.append(clock.time - start))
-    loop.run(until=start + 0.05)
+    loop.run(until=start + 0.06)
     timer.pace(0.05, clock.time)  # sooner than it was to fire
     loop.run(until=start + 0.22)
     timer.pace(0.2, clock.time)
-    loop.run(until=start + 0.7)
-    assert times == pytest.approx([0.0, 0.1, 0.15, 0.2, 0.25, 0.45, 0.65])
+    loop.run(until=start + 0.9)
+    assert times == pytest.approx([0.0, 0.1, 0.15, 0.2, 0.25, 0.4, 0.6, 0.8])
+
+
+def test_timers_that_were_made_together_fire_together_at_any_pace(loop: Loop, clock: Clock) -> None:
+    wakes = set()
+    pacing, _ = (loop.every(0.05, lambda: wakes.add(round(clock.time, 6))) for _ in range(2))
+    loop.run(until=clock.time + 0.12)
+    pacing.pace(0.02, clock.time)
+    loop.run(until=clock.time + 0.11)
+    pacing.pace(0.05, clock.time)
+    loop.run(until=clock.time + 0.15)
+    wakes.clear()
+    loop.run(until=clock.time + 1.0)
+    assert len(wakes) <= 21
 
 
 def test_a_timer_fires_at_once_and_then_on_its_schedule(loop: Loop, clock: Clock) -> None:
@@ -96,7 +109,7 @@ def test_missed_ticks_are_not_made_up_for(loop: Loop, clock: Clock) -> None:
 
 @given(st.floats(0.001, 100), st.floats(0, 1e6), st.floats(0, 1e4))
 def test_the_next_tick_lies_ahead_by_at_most_a_period(period: float, due: float, late: float) -> None:
-    timer = Timer(period, nothing, due)
+    timer = Timer(period, nothing, due, due)
     timer.reschedule(due + late)
     assert due + late - 1e-6 <= timer.due <= due + late + period + 1e-6
     ticks = (timer.due - due) / period
@@ -196,10 +209,24 @@ def test_a_file_no_longer_watched_is_left_alone(loop: Loop, pipe: tuple[int, int
 
 
 def test_an_action_may_end_the_watch_of_a_file_that_is_ready(loop: Loop, pipe: tuple[int, int]) -> None:
-    loop.watch(pipe[0], pytest.fail)
+    ear, bell = os.pipe()
+    try:
+        loop.watch(ear, lambda: loop.unwatch(pipe[0]))
+        loop.watch(pipe[0], pytest.fail)
+        for end in (bell, pipe[1]):
+            os.write(end, b"a")
+        loop.run_once()
+    finally:
+        os.close(ear)
+        os.close(bell)
+
+
+def test_what_a_file_brings_is_done_in_the_same_round(loop: Loop, pipe: tuple[int, int]) -> None:
+    done = []
+    loop.watch(pipe[0], lambda: loop.call_next(lambda: done.append(os.read(pipe[0], 1))))
     os.write(pipe[1], b"a")
-    loop.call_soon(lambda: loop.unwatch(pipe[0]))
     loop.run_once()
+    assert done == [b"a"]
 
 
 def test_stop_ends_the_run_after_the_action_at_hand(loop: Loop, clock: Clock) -> None:

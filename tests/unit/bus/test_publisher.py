@@ -238,10 +238,10 @@ def test_a_program_that_says_one_command_and_ends_is_told_that_nothing_moved(
     operator.beat(5.0)
     operator.publisher.publish(Twist.planar(1.0, 0.0))
     clock.pass_by(0.004)
-    operator.publisher.leave()
+    operator.publisher.leave(tell_brief=True)
     said = "what was said on cmd_vel held for 4 ms: a program that ends lets go; publish 10 times a second"
     assert said in capsys.readouterr().out
-    operator.publisher.leave()
+    operator.publisher.leave(tell_brief=True)
     assert not capsys.readouterr().out, "nothing moves any more"
 
 
@@ -252,7 +252,7 @@ def test_a_program_that_drove_for_a_while_ends_quietly(
     for _ in range(3):
         operator.publisher.publish(Twist.planar(1.0, 0.0))
         clock.pass_by(0.05)
-    operator.publisher.leave()
+    operator.publisher.leave(tell_brief=True)
     assert not capsys.readouterr().out
 
 

@@ -129,3 +129,12 @@ def test_a_flooded_path_is_not_heard_for_a_while_and_then_again(bench: Tapped, c
     clock.pass_by(0.2)
     assert bench.paths() == ["stop"]
     assert bench.session.rings[f"{PREFIX}stop"].declared
+
+
+def test_what_came_first_is_told_first_where_the_door_took_note(bench: Tapped, clock: Clock) -> None:
+    bench.announce("drive_status", "pwm/keyboard")
+    assert bench.paths() == []
+    for path, at in (("pwm/keyboard", 2.0), ("pwm/keyboard", 4.0), ("drive_status", 3.0), ("beat", 1.0)):
+        bench.say(path, put(b"", key=f"{PREFIX}{path}")._replace(at=at))
+    told = [(raw.path, raw.at) for raw in bench.tap.take()]
+    assert told == [("beat", 1.0), ("pwm/keyboard", 2.0), ("drive_status", 3.0), ("pwm/keyboard", 4.0)]

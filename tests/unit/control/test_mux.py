@@ -96,3 +96,16 @@ def test_a_sender_that_no_longer_hears_the_robot_falls_silent_as_well() -> None:
     it.offer(claim("keyboard", 1.25)._replace(beat=1.0))
     assert it.select(1.39)
     assert it.select(1.41) is None
+
+
+def test_a_claim_is_not_over_at_its_end_and_is_right_after() -> None:
+    silences = Silences(SOURCES, 5.0)
+    for one in (
+        claim("keyboard", 10.0),
+        claim("program", 10.0),
+        claim("keyboard", 10.0, acted=5.1),
+        claim("keyboard", 10.0)._replace(beat=9.8),
+    ):
+        end = silences.end(one)
+        assert not silences.over(one, end - 1e-6)
+        assert silences.over(one, end + 1e-6)

@@ -34,6 +34,7 @@ class Process:
         self.waits: list[float] = []
         self.returncode: int | None = None
         self.stdin = Stdin()
+        self.pid = 2**22 + 1  # more than any has
 
     def poll(self) -> int | None:
         return self.returncode
@@ -262,3 +263,27 @@ def test_a_frozen_one_is_killed() -> None:
 def test_a_step_at_no_time_or_yet_to_come_is_silence_since_the_start(child: Child, stepped: float) -> None:
     child.newest, child.started = Report(stepped, STANDING), 900.0
     assert child.silence(999.0) == 99.0  # a figure that can be told: the bus takes no other
+
+
+def test_a_report_wakes_nobody_and_the_end_does(tmp_path: Any) -> None:
+    child = Child([*SLEEPER], b"{}")
+    child.start(time.monotonic())
+    try:
+        if sys.platform == "linux":
+            assert child.fileno() != child.link.fileno()
+        assert not select([child], [], [], 0)[0]
+        os.kill(child._process.pid, signal.SIGKILL)
+        assert select([child], [], [], 10)[0]
+    finally:
+        child.end(1.0)
+    assert child.link is None
+
+
+def test_where_the_system_tells_no_end_each_report_wakes(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module.sys, "platform", "darwin")
+    child = Child([*SLEEPER], b"{}")
+    child.start(time.monotonic())
+    try:
+        assert child.fileno() == child.link.fileno()
+    finally:
+        child.end(0.0)

@@ -5,7 +5,7 @@ from unit.nodes.fakes import LimitsShelf, Shelf
 
 from zteleop.bus.subscription import Received
 from zteleop.bus.topics import TOPICS
-from zteleop.control.deadlines import STEP_EVERY, WATCHDOG_SILENCE
+from zteleop.control.deadlines import SILENCE, STEADY_EVERY, STEP_EVERY, WATCHDOG_SILENCE
 from zteleop.control.mux import Source
 from zteleop.control.proof import Proof, Prover
 from zteleop.control.settings import SOURCES, DriveSettings
@@ -15,6 +15,7 @@ from zteleop.machine.health import LOOK_EVERY, Health
 from zteleop.machine.link import UNWATCHED, Report, Words
 from zteleop.messages import Beat, DriveStatus, Int16MultiArray, Message, MultiArrayLayout, Pwm, Stop, Twist
 from zteleop.nodes.actuator import (
+    A_MOMENT,
     AT_MOST_EVERY,
     CHECK_EVERY,
     FORGOT,
@@ -23,7 +24,7 @@ from zteleop.nodes.actuator import (
     Actuator,
     UnwatchedError,
 )
-from zteleop.nodes.output import REPAIR_EVERY
+from zteleop.nodes.output import FAILED_STEPS, REPAIR_EVERY
 from zteleop.testing import Clock, FakeNode, MemoryChip
 
 NEUTRAL = {0: 1509.6, 1: 1530.0}
@@ -121,7 +122,8 @@ class Robot:
 
     @property
     def status(self) -> DriveStatus:
-        self.node.loop.run(TOPICS["beat"].every)
+        """What it says five times a second, whatever happens."""
+        self.actuator._state.tell_status(self.actuator._step)
         return self.node.said["drive_status"].messages[-1]
 
     def hear(self, words: Words | None) -> None:
@@ -519,6 +521,64 @@ def test_a_command_is_obeyed_on_arrival_even_right_after_a_step_of_the_clock(rob
     assert robot.node.infos[-1] == "driving: keyboard 0007 drives"
 
 
+@pytest.fixture
+def alive(robot: Robot) -> Robot:
+    """A robot whose watchdog speaks while time passes by itself."""
+    robot.node.loop.every(STEADY_EVERY, lambda: robot.hear(Words(True)))
+    robot.node.live(0.3)
+    robot.chip.writes.clear()
+    return robot
+
+
+def test_it_steps_often_only_while_its_pulses_change(alive: Robot) -> None:
+    alive.node.live(1.0)
+    assert len(alive.chip.writes) == pytest.approx(1.0 / STEADY_EVERY, abs=1)
+    alive.say(Twist.planar(2.0))  # which it accelerates to
+    alive.chip.writes.clear()
+    alive.node.live(0.2)
+    assert len(alive.chip.writes) >= 0.2 / STEP_EVERY - 1
+    for _ in range(20):
+        alive.say(PUSH)
+        alive.node.live(STEADY_EVERY)
+    alive.chip.writes.clear()
+    alive.node.live(0.2)
+    assert len(alive.chip.writes) == pytest.approx(0.2 / STEADY_EVERY, abs=1)
+    assert alive.chip.pulses != NEUTRAL
+
+
+def test_what_it_does_is_said_with_each_beat_while_driven_and_else_when_it_is_news(alive: Robot) -> None:
+    statuses = alive.node.said["drive_status"]
+    statuses.take()
+    alive.node.live(2.0)
+    assert len(statuses.take()) == pytest.approx(2.0 * 5, abs=1)
+    for _ in range(20):
+        alive.say(PUSH)
+        alive.node.live(TOPICS["beat"].every)
+    assert len(statuses.take()) >= 19
+    alive.node.live(1.0)
+    statuses.take()
+    alive.shelf.unkept = "the disk is full"
+    alive.node.live(TOPICS["beat"].every)
+    assert [status.unkept for status in statuses.take()] == ["the disk is full"], "at once"
+
+
+def test_a_deadline_is_heard_when_it_passes_and_not_at_the_next_step(alive: Robot) -> None:
+    for _ in range(5):
+        alive.say(PUSH)
+        alive.node.live(STEADY_EVERY)
+    alive.say(PUSH)
+    alive.node.live(SILENCE)
+    assert alive.chip.pulses != NEUTRAL
+    alive.node.live(2 * A_MOMENT)
+    assert alive.chip.pulses == NEUTRAL
+
+
+def test_a_chip_that_takes_nothing_is_tried_often(alive: Robot) -> None:
+    alive.chip.broken |= {"write", "start"}
+    alive.node.live(STEADY_EVERY + FAILED_STEPS * STEP_EVERY)
+    assert alive.status.state == "fault"
+
+
 def test_a_few_commands_in_a_row_are_answered_at_once_and_then_share_a_step(robot: Robot) -> None:
     robot.tick()
     writes = len(robot.chip.writes)
@@ -528,7 +588,7 @@ def test_a_few_commands_in_a_row_are_answered_at_once_and_then_share_a_step(robo
     for ticks_ in (395, 400):
         robot.say(Pwm(ticks_, 370))
     assert len(robot.chip.writes) == writes + IN_A_ROW
-    (soon,) = robot.node.loop.alarms
+    soon, _ = robot.node.loop.alarms
     assert soon.due == pytest.approx(robot.clock.time + AT_MOST_EVERY, abs=1e-9)
     robot.clock.time = soon.due
     robot.node.loop.ring(soon.due)
@@ -568,7 +628,7 @@ def test_a_change_of_state_is_told_once(robot: Robot) -> None:
     robot.tick(5)
     assert statuses.take() == []
     robot.say(PUSH)
-    assert [status.state for status in statuses.take()] == ["idle", "idle", "driving"]  # two with beats
+    assert [status.state for status in statuses.take()] == ["driving"]
     robot.tick(5)
     assert statuses.take() == []
 

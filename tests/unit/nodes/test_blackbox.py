@@ -10,7 +10,7 @@ from zteleop.bus.tap import Raw
 from zteleop.machine.sidecar import LAST_WORD
 from zteleop.messages import DriveStatus, Message, Stop, WatchdogStatus
 from zteleop.nodes import blackbox as module
-from zteleop.nodes.blackbox import AFTERMATH, LISTEN_EVERY, PAUSE, BlackBox, Writer
+from zteleop.nodes.blackbox import AFTERMATH, LISTENS_WITHIN, PAUSE, BlackBox, Writer
 from zteleop.recording.ring import Ring, Snapshot
 from zteleop.recording.triggers import Trigger
 from zteleop.testing import Clock, FakeNode
@@ -63,7 +63,7 @@ class Recorded:
             self.warnings.append,  # type: ignore[arg-type]
         )
         node.loop.watch(self.ear, self.box._hear_watchdog)
-        node.every(LISTEN_EVERY)(self.box._listen)
+        node.every(LISTENS_WITHIN)(self.box._listen)
 
     def live(self, seconds: float) -> None:
         self.node.live(seconds)

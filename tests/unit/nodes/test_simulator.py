@@ -6,8 +6,9 @@ import pytest
 from zteleop.bus.topics import TOPICS
 from zteleop.control.settings import DriveSettings
 from zteleop.drivers import open_driver
+from zteleop.drivers.registers import read_pulse_us
 from zteleop.nodes import simulator
-from zteleop.nodes.simulator import PERIOD, TELL_EVERY
+from zteleop.nodes.simulator import AT_REST, PERIOD, TELL_EVERY
 from zteleop.testing import Clock, FakeNode
 
 
@@ -37,3 +38,27 @@ def test_the_car_moves_as_its_chip_says_and_tells_where_it_is(
     assert re.match(r" [0-9.]+ m/s  x +[0-9.]+ m  y +0.00 m  heading +0 deg  rolled [0-9.]+ m$", drives)
     assert stands.startswith(" 0.00 m/s  ")
     assert len(rolls) < 2, "it stands, and says it again and again"
+
+
+def test_a_car_that_stands_is_looked_at_less_often(
+    node: FakeNode, clock: Clock, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = str(tmp_path / "chip")
+    driver = open_driver("simulated", {"path": path})
+    looks = []
+    monkeypatch.setattr(
+        simulator, "read_pulse_us", lambda *seen: looks.append(clock.time) or read_pulse_us(*seen)
+    )
+    try:
+        driver.start({0: 1509.6})
+        simulator.run(node, DriveSettings(), path, print)
+        node.live(1.0)
+        per_look = 2  # channels
+        assert len(looks) // per_look == pytest.approx(1.0 / AT_REST, abs=2)
+        driver.write({0: 2040.0})
+        node.live(0.2)
+        looks.clear()
+        node.live(0.5)
+        assert len(looks) // per_look == pytest.approx(0.5 / PERIOD, abs=2)
+    finally:
+        driver.close()

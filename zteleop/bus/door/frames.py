@@ -93,6 +93,7 @@ class Arrived(Struct, array_like=True, frozen=True, tag=2):
     encoding: str
     attachment: bytes | None
     is_put: bool
+    at: float
 
 
 class Tokens(Struct, array_like=True, frozen=True, tag=3):

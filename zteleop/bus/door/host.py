@@ -14,6 +14,7 @@ from itertools import count
 from zteleop.bus import clock
 from zteleop.bus.door.frames import (
     Advertise,
+    Answer,
     Arrived,
     Ask,
     Asked,
@@ -62,13 +63,15 @@ class Host:
         self._guests: list[Guest] = []
         listener.setblocking(False)
         loop.watch(listener.fileno(), self._let_in)
-        loop.every(FLUSH_EVERY, self._flush)
+        self._flusher = loop.alarm(self._flush)
+        self._flush_is_due = False
+        loop.every(UNANSWERED, self._forget)
 
     def _let_in(self) -> None:
         with suppress(BlockingIOError):
             while True:
                 end, _ = self._listener.accept()
-                guest = Guest(self._session, Wire(end, Ask), self._complain)
+                guest = Guest(self._session, Wire(end, Ask), self._complain, self._flush_soon)
                 self._guests.append(guest)
                 self._loop.watch(guest.fileno(), lambda guest=guest: self._serve(guest))  # type: ignore[misc]
                 guest.greet()
@@ -81,19 +84,37 @@ class Host:
             self._loop.unwatch(guest.fileno())
             guest.leave()
 
+    def _flush_soon(self) -> None:
+        """Pass on a little later what a guest does not take now; safe from any thread."""
+        if not self._flush_is_due:
+            self._flush_is_due = True
+            self._loop.call_soon(lambda: self._flusher.ring_at(clock.now() + FLUSH_EVERY))
+
     def _flush(self) -> None:
+        self._flush_is_due = False  # before it is done: what comes meanwhile asks anew
+        done = [guest.flush() for guest in self._guests]
+        if not all(done):
+            self._flush_soon()
+
+    def _forget(self) -> None:
         for guest in self._guests:
-            guest.flush()
             guest.forget(clock.now())
 
 
 class Guest:
     """One of the robot's own processes, and what it has declared."""
 
-    def __init__(self, session: ZenohSession, wire: Wire[Ask], complain: Callable[[str], object]) -> None:
+    def __init__(
+        self,
+        session: ZenohSession,
+        wire: Wire[Ask],
+        complain: Callable[[str], object],
+        flush_soon: Callable[[], object],
+    ) -> None:
         self._session = session
         self._wire = wire
         self._complain = complain
+        self._flush_soon = flush_soon
         self._declared: dict[int, Undeclarable] = {}
         self._outlets: dict[int, Outlet] = {}
         self._waiting: deque[Arrived | Asked] = deque()
@@ -108,7 +129,7 @@ class Guest:
 
     def greet(self) -> None:
         """Say that the door is open."""
-        self._wire.send(Hello(), keep=True)
+        self._send(Hello(), keep=True)
 
     def serve(self) -> None:
         """Do what was asked; raises EOFError when the process is gone."""
@@ -118,12 +139,13 @@ class Guest:
             except BusError as error:  # zenoh takes no such name, or nothing any more
                 self._complain(f"the door cannot do what it is asked: {error}")
 
-    def flush(self) -> None:
-        """Pass on what had to wait."""
+    def flush(self) -> bool:
+        """Pass on what had to wait; True when nothing waits any more."""
         self._wire.flush()
         with self._passing:
             while self._waiting and self._wire.send(self._waiting[0]):
                 self._waiting_bytes -= len(self._waiting.popleft().payload)
+            return not self._waiting and not self._wire.lags
 
     def forget(self, now: float) -> None:
         """Give up what is not answered."""
@@ -172,7 +194,7 @@ class Guest:
             allowance = bare if sample.attachment is None else proven
             if allowance.has(now):
                 allowance.spend(now)
-                self._pass(Arrived(identity, *sample))
+                self._pass(Arrived(identity, *sample[:-1], at=now))
 
         return passes
 
@@ -201,13 +223,20 @@ class Guest:
 
     def _pass(self, arrived: Arrived | Asked) -> None:
         with self._passing:
-            if not self._waiting and self._wire.send(arrived):
+            if not self._waiting and self._send(arrived):
                 return
             if self._waiting_bytes < WAITING:
                 self._waiting.append(arrived)
                 self._waiting_bytes += len(arrived.payload)
 
+    def _send(self, frame: Answer, keep: bool = False) -> bool:
+        """Say a frame as far as the process takes it, the rest soon; False when it takes nothing."""
+        sent = self._wire.send(frame, keep=keep)
+        if not sent or self._wire.lags:
+            self._flush_soon()
+        return sent
+
     def _look_up(self, ask: AskTokens) -> None:
         """Ask the bus, which may take its time."""
         with suppress(BusError):
-            self._wire.send(Tokens(ask.id, sorted(self._session.tokens(ask.selector))), keep=True)
+            self._send(Tokens(ask.id, sorted(self._session.tokens(ask.selector))), keep=True)

@@ -57,6 +57,8 @@ class Remote:
         """who is asked, by what was declared"""
         self._answers: dict[int, list[str]] = {}
         self._loop: Loop | None = None
+        self._arrives: Callable[[], object] = self.read
+        """what a loop does when something has arrived"""
         self._knock: Timer | None = None
         self._wire: Wire[Answer] | None = None
         self._looked = float("-inf")
@@ -113,6 +115,22 @@ class Remote:
             self._watch()
         return turns
 
+    def attend(self, tell: Callable[[], object], loop: Loop, within: float) -> None:
+        """Tell that something has arrived; what follows within so many s waits, and is told of together."""
+        self._loop, self._knock = loop, loop.alarm(self.read)
+
+        def take_in() -> None:
+            if self.read():
+                tell()
+                self._unwatch()
+                again.ring_at(clock.now() + within)
+            else:
+                self._watch()
+
+        again = loop.alarm(take_in)
+        self._arrives = take_in
+        self._watch()
+
     def wait(self, seconds: float) -> bool:
         """Wait for the door to open; True when it is."""
         give_up = time.monotonic() + seconds
@@ -136,25 +154,28 @@ class Remote:
         if now - self._looked > GLANCE:
             self.read()
 
-    def read(self) -> None:
-        """Take in what has arrived."""
+    def read(self) -> bool:
+        """Take in what has arrived; True when something has."""
         if self.closed or not (self._wire or self._join()):
             self._knock_again()
-            return
+            return False
+        heard = False
         for _ in range(READS):
             assert self._wire
             try:
                 frames = self._wire.read()
             except EOFError:
                 self._lose()
-                return
+                return heard
             if not frames:
                 break
+            heard = True
             for frame in frames:
                 self._take(frame)
         if self._wire:
             self._wire.flush()
         self._looked = time.monotonic()
+        return heard
 
     def put(self, frame: Put) -> None:
         """Say something, or nothing while there is no door; raises BusError when the session is closed."""
@@ -185,7 +206,7 @@ class Remote:
     def _take(self, frame: Answer) -> None:
         if isinstance(frame, Arrived):
             if ring := self._rings.get(frame.id):
-                ring.take(Sample(frame.key, frame.payload, frame.encoding, frame.attachment, frame.is_put))
+                ring.take(_sample(frame))
         elif isinstance(frame, Asked):
             self._pass_on(frame)
         elif isinstance(frame, Tokens):
@@ -250,8 +271,12 @@ class Remote:
 
     def _watch(self) -> None:
         if self._loop and self._wire:
-            self._loop.watch(self._wire.fileno(), self.read)
+            self._loop.watch(self._wire.fileno(), self._arrives)
 
     def _unwatch(self) -> None:
         if self._loop and self._wire:
             self._loop.unwatch(self._wire.fileno())
+
+
+def _sample(frame: Arrived) -> Sample:
+    return Sample(frame.key, frame.payload, frame.encoding, frame.attachment, frame.is_put, frame.at)

@@ -107,6 +107,10 @@ class House:
             for guest in guests:
                 guest.read()
 
+    def let_pass(self, seconds: float) -> None:
+        """Let the door do what is due."""
+        self.loop.run(clock.now() + seconds)
+
     def fall(self) -> None:
         """End as a process does."""
         for guest in self.host._guests:
@@ -133,9 +137,12 @@ def test_what_one_says_the_others_hear(house: House) -> None:
     ring = other.subscribe("robot/a/beat", 10)
     outlet = one.advertise("robot/a/beat", urgent=True)
     house.settle(one, other)
+    before = clock.now()
     outlet.put(b"1", "text/plain", b"proof")
     house.settle(one, other)
-    assert taken(ring) == [Sample("robot/a/beat", b"1", "text/plain", b"proof", True)]
+    (sample,) = taken(ring)
+    assert sample[:-1] == Sample("robot/a/beat", b"1", "text/plain", b"proof", True)[:-1]
+    assert before <= sample.at <= clock.now()
     assert outlet.matched
     assert house.zenoh.urgent == ["robot/a/beat"]
 
@@ -255,9 +262,70 @@ def test_who_reads_nothing_holds_up_nobody_and_hears_the_rest_later(house: House
     assert len(taken(ring)) == large
     for _ in range(large):
         frozen.read()
-        house.host._flush()
+        house.let_pass(module.FLUSH_EVERY)
     kept = len(taken(late))
     assert module.WAITING / 100_000 <= kept < large
+
+
+def test_the_rest_of_a_frame_follows_when_there_is_room(house: House) -> None:
+    guest = house.guest()
+    ring = guest.subscribe("robot/a/odd", 10)
+    house.settle(guest)
+    house.zenoh.say(Sample("robot/a/odd", bytes(1_500_000), ""))  # more than a socket takes at once
+    for _ in range(20):
+        guest.read()
+        house.let_pass(module.FLUSH_EVERY)
+    assert [len(sample.payload) for sample in taken(ring)] == [1_500_000]
+
+
+def test_a_door_that_has_passed_everything_on_sleeps(house: House) -> None:
+    house.guest()
+    rounds = 0
+    run_once = house.loop.run_once
+
+    def count(until: float | None = None) -> None:
+        nonlocal rounds
+        rounds += 1
+        run_once(until)
+
+    house.loop.run_once = count  # type: ignore[method-assign]
+    house.let_pass(5 * module.FLUSH_EVERY)
+    assert rounds == 1
+
+
+def test_a_question_that_nobody_answers_is_forgotten(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
+    guest = house.guest()
+    guest.serve("robot/a/srv/x", lambda question: None)
+    house.settle(guest)
+    house.zenoh.takers["robot/a/srv/x"](Question(b"", "", print, print))
+    (door,) = house.host._guests
+    assert len(door._questions) == 1
+    now = clock.now()
+    monkeypatch.setattr(module.clock, "now", lambda: now + 2.1 * module.UNANSWERED)
+    house.let_pass(0.0)
+    assert not door._questions
+
+
+def test_who_attends_is_told_at_once_and_then_of_all_that_came_within_a_while(house: House) -> None:
+    guest, loop, told = house.guest(), Loop(lambda: None), []
+    ring = guest.subscribe("robot/a/pwm", 10)
+    house.settle(guest)
+    within, began = 0.1, clock.now()
+    guest.attend(lambda: told.append((clock.now() - began, len(taken(ring)))), loop, within)
+    house.zenoh.say(Sample("robot/a/pwm", b"1", ""))
+    loop.run(clock.now() + within / 4)
+    house.zenoh.say(Sample("robot/a/pwm", b"2", ""))
+    loop.run(clock.now() + within / 4)
+    house.zenoh.say(Sample("robot/a/pwm", b"3", ""))
+    loop.run(clock.now() + within)
+    assert [heard for _, heard in told] == [1, 2]
+    assert told[1][0] - told[0][0] >= within * 0.99
+    loop.run(clock.now() + within)
+    house.zenoh.say(Sample("robot/a/pwm", b"4", ""))
+    loop.run(clock.now() + 0.01)
+    assert [heard for _, heard in told] == [1, 2, 1], "after a pause again at once"
+    guest.close()
+    loop.close()
 
 
 def test_a_name_that_zenoh_does_not_take_is_said_and_ends_nobody(house: House) -> None:

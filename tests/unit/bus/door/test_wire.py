@@ -33,7 +33,7 @@ def test_what_is_asked_arrives_as_it_was_said(ends: Ends, frame: msgspec.Struct)
 
 
 def test_what_is_answered_arrives_as_it_was_said(ends: Ends) -> None:
-    answers = [Hello(), Arrived(1, "a/b", b"\xff", "e", None, False), Tokens(2, ["a", "b"])]
+    answers = [Hello(), Arrived(1, "a/b", b"\xff", "e", None, False, 5.5), Tokens(2, ["a", "b"])]
     guest, door = Wire(ends[0], Answer), Wire(ends[1], Ask)
     for answer in answers:
         door.send(answer)
