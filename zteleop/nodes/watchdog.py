@@ -97,10 +97,11 @@ class Watchdog:
         self._node.membership.loop.watch(self._child.fileno(), lambda: self._hear_actuator(woken=True))
 
     def _hear_actuator(self, woken: bool = False) -> None:
+        """Take in its reports; only its end wakes anybody."""
         was_ready = self._child.ready
         try:
             self._child.hear(clock.now())
-            if woken and self._child.gone:  # whoever else may hold its end of the link
+            if woken:
                 raise EOFError
         except EOFError:
             self._rest()  # before its process is even waited for

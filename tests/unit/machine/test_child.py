@@ -34,7 +34,6 @@ class Process:
         self.waits: list[float] = []
         self.returncode: int | None = None
         self.stdin = Stdin()
-        self.pid = 2**22 + 1  # more than any has
 
     def poll(self) -> int | None:
         return self.returncode
@@ -103,7 +102,8 @@ def test_it_is_started_with_its_link_its_files_and_its_settings(child: Child, nu
     (process,) = nursery.born
     *command, number = process.command
     assert command == ["zteleop", "actuator"]
-    assert process.options["pass_fds"] == [int(number), 33]
+    assert process.options["pass_fds"][0] == int(number)
+    assert process.options["pass_fds"][-1] == 33
     assert (process.stdin.data, process.stdin.closed) == (b"settings\nnull", True)
     assert (child.starts, child.ready, child.gone) == (1, False, False)
 
@@ -269,21 +269,9 @@ def test_a_report_wakes_nobody_and_the_end_does(tmp_path: Any) -> None:
     child = Child([*SLEEPER], b"{}")
     child.start(time.monotonic())
     try:
-        if sys.platform == "linux":
-            assert child.fileno() != child.link.fileno()
         assert not select([child], [], [], 0)[0]
         os.kill(child._process.pid, signal.SIGKILL)
         assert select([child], [], [], 10)[0]
     finally:
         child.end(1.0)
     assert child.link is None
-
-
-def test_where_the_system_tells_no_end_each_report_wakes(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module.sys, "platform", "darwin")
-    child = Child([*SLEEPER], b"{}")
-    child.start(time.monotonic())
-    try:
-        assert child.fileno() == child.link.fileno()
-    finally:
-        child.end(0.0)

@@ -167,11 +167,11 @@ class Remote:
             except EOFError:
                 self._lose()
                 return heard
-            if not frames:
-                break
-            heard = True
+            heard = heard or bool(frames)
             for frame in frames:
                 self._take(frame)
+            if not self._wire or self._wire.is_drained:  # another look would be one in vain
+                break
         if self._wire:
             self._wire.flush()
         self._looked = time.monotonic()

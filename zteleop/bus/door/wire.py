@@ -24,6 +24,8 @@ class Wire(Generic[T]):
         self._socket = end
         self._decode = msgspec.msgpack.Decoder(hears).decode
         self._buffer = memoryview(bytearray(_AT_ONCE))  # kept: so much anew costs three calls of the system
+        self.is_drained = True
+        """The last look has taken all that had arrived."""
         self._arrived = b""
         self._left = b""
         """What the other end must still take before anything else: the rest of a frame, and what is kept."""
@@ -62,13 +64,16 @@ class Wire(Generic[T]):
     def read(self) -> list[T]:
         """Return what has arrived; raises EOFError when the other end is gone, or speaks in no frames."""
         try:
-            data = bytes(self._buffer[: self._socket.recv_into(self._buffer)])
+            length = self._socket.recv_into(self._buffer)
         except BlockingIOError:
+            self.is_drained = True
             return []
         except OSError:
             raise EOFError from None
-        if not data:
+        if not length:
             raise EOFError
+        self.is_drained = length < _AT_ONCE
+        data = bytes(self._buffer[:length])
         return self._take(self._arrived + data if self._arrived else data)
 
     def _take(self, data: bytes) -> list[T]:
