@@ -147,7 +147,10 @@ class Actuator:
             self._journal.close()
 
     def _receive(self, received: Received[Message]) -> None:
-        """Judge a command; when it counts, step at once, or as soon as the last answer is old enough."""
+        """Judge a command; when it counts, step at once, or as soon as the last answer is old enough.
+
+        The pulses first: whatever is to be noted and told of it can wait for them.
+        """
         now, source, proof = received.at, received.source, received.proof
         self._notice_pause(now)
         try:
@@ -156,6 +159,7 @@ class Actuator:
             self._node.log.warn(f"{received.key}: dropped: {error}", received.key)
             return
         refusal = self._drive.receive(source, command, proof, now)
+        moved = self._move() if refusal is None and self._may_answer(now) else None
         sender, acted = (proof.sender, proof.acted) if proof else (None, now)
         if proof:
             self._state.note(proof.sender, source, refusal, now)
@@ -168,17 +172,27 @@ class Actuator:
         if refusal:
             who = called(source, f"{proof.sender:x}") if proof else received.key
             self._node.log.warn(f"{who} is refused: {refusal}", f"{source} {refusal}")
+        elif moved:
+            self._report(*moved)
         else:
             self._step_soon(now)
 
     def _step_soon(self, now: float) -> None:
-        """Step at once, or as soon as the last answer is old enough."""
+        """Step as soon as the last answer is old enough."""
         self._soon.ring_at(max(now, self._answered + AT_MOST_EVERY))
 
     def _answer(self) -> None:
-        """Step for what has arrived, 200 times a second on the average, a few in a row at once."""
-        self._answered = max(self._answered + AT_MOST_EVERY, clock.now() - (IN_A_ROW - 1) * AT_MOST_EVERY)
-        self._advance()
+        """Step for what has arrived."""
+        if self._may_answer(clock.now()):
+            self._advance()
+
+    def _may_answer(self, now: float) -> bool:
+        """Say whether to step now for what has arrived: 200 times a second, a few in a row at once."""
+        due = self._answered + AT_MOST_EVERY
+        if now < due:
+            return False
+        self._answered = max(due, now - (IN_A_ROW - 1) * AT_MOST_EVERY)
+        return True
 
     def _tick(self) -> None:
         """Step by the clock, which alone hears silence: of commands, and of the watchdog."""
@@ -193,19 +207,26 @@ class Actuator:
 
     def _advance(self) -> None:
         """Decide the pulses of now, write them, and report the step."""
+        self._report(*self._move())
+
+    def _move(self) -> tuple[Step, float]:
+        """Decide the pulses of now and write them; return the step before, and when this one was."""
         now = clock.now()
         self._notice_pause(now)
         before, self._step = self._step, self._drive.step(now)
         self._output.write(self._step.pulse_us, now)
+        return before, now
+
+    def _report(self, before: Step, now: float) -> None:
+        """Tell the watchdog of a step, and everybody of one that is news."""
         self._keep_pace(before, now)
         stopped = bool(self._drive.admission.latch.stops)
         self._link.report(Report(now, stand(self._drive, self._since), stopped))
         if (self._step.state, _driver(self._step)) != (before.state, _driver(before)):
             self._node.log.info(f"{self._step.state}: {self._step.why}")
             self._journal.event("state", state=self._step.state, why=self._step.why)
-            self._state.tell(
-                self._step
-            )  # a beat as well: whoever begins now must prove that it was after this
+            # a beat as well: whoever begins now must prove that it was after this
+            self._state.tell(self._step)
             self._state.describe(self._step)
 
     def _keep_pace(self, before: Step, now: float) -> None:

@@ -579,6 +579,17 @@ def test_a_chip_that_takes_nothing_is_tried_often(alive: Robot) -> None:
     assert alive.status.state == "fault"
 
 
+def test_the_pulses_are_out_before_a_command_is_noted_or_told(robot: Robot) -> None:
+    out: list[int] = []
+    command, log = robot.journal.command, robot.node.log.info
+    robot.journal.command = lambda *about: out.append(len(robot.chip.writes)) or command(*about)
+    robot.node.log.info = lambda *about: out.append(len(robot.chip.writes)) or log(*about)
+    robot.tick()
+    before = len(robot.chip.writes)
+    robot.say(PUSH)
+    assert out == [before + 1] * 2, "a command, and that it drives"
+
+
 def test_a_few_commands_in_a_row_are_answered_at_once_and_then_share_a_step(robot: Robot) -> None:
     robot.tick()
     writes = len(robot.chip.writes)

@@ -4,4 +4,5 @@ frames   what is said between them
 wire     how it gets there: a socket of the machine
 remote   the session of a process behind the door
 host     the door's end of it
+hub      one subscription for all of them
 """

@@ -29,6 +29,7 @@ from zteleop.bus.door.frames import (
     Undeclare,
     WatchTokens,
 )
+from zteleop.bus.door.hub import Hub
 from zteleop.bus.door.wire import Wire
 from zteleop.bus.loop import Loop
 from zteleop.bus.session import Outlet, Question, Sample
@@ -57,6 +58,7 @@ class Host:
         self, session: ZenohSession, listener: socket.socket, loop: Loop, complain: Callable[[str], object]
     ) -> None:
         self._session = session
+        self._hub = Hub(session)
         self._listener = listener
         self._loop = loop
         self._complain = complain
@@ -71,7 +73,7 @@ class Host:
         with suppress(BlockingIOError):
             while True:
                 end, _ = self._listener.accept()
-                guest = Guest(self._session, Wire(end, Ask), self._complain, self._flush_soon)
+                guest = Guest(self._session, self._hub, Wire(end, Ask), self._complain, self._flush_soon)
                 self._guests.append(guest)
                 self._loop.watch(guest.fileno(), lambda guest=guest: self._serve(guest))  # type: ignore[misc]
                 guest.greet()
@@ -107,11 +109,13 @@ class Guest:
     def __init__(
         self,
         session: ZenohSession,
+        hub: Hub,
         wire: Wire[Ask],
         complain: Callable[[str], object],
         flush_soon: Callable[[], object],
     ) -> None:
         self._session = session
+        self._hub = hub
         self._wire = wire
         self._complain = complain
         self._flush_soon = flush_soon
@@ -164,7 +168,7 @@ class Guest:
             if outlet := self._outlets.get(ask.id):
                 outlet.put(ask.payload, ask.encoding, ask.attachment)
         elif isinstance(ask, Subscribe):
-            self._declared[ask.id] = self._session.hear(ask.key, self._passer(ask.id))
+            self._declared[ask.id] = self._hub.hear(ask.key, ask.depth, self._passer(ask.id))
         elif isinstance(ask, WatchTokens):
             self._declared[ask.id] = self._session.hear_tokens(
                 ask.selector, self._passer(ask.id), ask.history
