@@ -272,6 +272,9 @@ def test_a_report_wakes_nobody_and_the_end_does(tmp_path: Any) -> None:
         assert not select([child], [], [], 0)[0]
         os.kill(child._process.pid, signal.SIGKILL)
         assert select([child], [], [], 10)[0]
+        pipe = child.fileno()
     finally:
         child.end(1.0)
     assert child.link is None
+    with pytest.raises(OSError, match="Bad file"):
+        os.fstat(pipe)

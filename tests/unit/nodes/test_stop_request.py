@@ -1,4 +1,5 @@
 import getpass
+from collections.abc import Iterator
 
 import pytest
 
@@ -130,6 +131,11 @@ class Lane:
 
     def __init__(self) -> None:
         self.said: list[tuple[str, Stop]] = []
+        self.looks = 0
+
+    def answers(self) -> Iterator[Answered]:
+        self.looks += 1
+        return (answer(stop) for _, stop in self.said)
 
     def say(self, robot: str, stop: Stop) -> None:
         self.said.append((robot, stop))
@@ -149,6 +155,16 @@ def test_a_stop_is_said_on_the_lane_before_there_is_a_bus_and_on_both_afterwards
     stopping.heed(None, 100.0 + TOPICS["stop"].every)
     assert node.said["/archangel/stop"].messages == [lane.said[0][1]]
     assert len(lane.said) == 3
+
+
+def test_a_lane_of_its_own_is_listened_to_only_while_a_stop_is_asked_for() -> None:
+    lane = Lane()
+    stopping = Stopping(None, "ann@desk", "archangel", lane)
+    stopping.listen(99.0)
+    assert lane.looks == 0
+    stopping.engage(100.0)
+    stopping.listen(100.01)
+    assert stopping.state == "done"
 
 
 def test_whichever_answer_comes_first_is_believed(asker: Asker) -> None:

@@ -41,8 +41,6 @@ GLANCE = 0.0005
 """s after a look that found nothing, in which nobody looks again: many inboxes share one wire"""
 KNOCK_EVERY = 0.05
 """s, where nobody listens at the place"""
-READS = 16
-"""pieces taken in at once"""
 
 
 class Remote:
@@ -159,23 +157,18 @@ class Remote:
         if self.closed or not (self._wire or self._join()):
             self._knock_again()
             return False
-        heard = False
-        for _ in range(READS):
-            assert self._wire
-            try:
-                frames = self._wire.read()
-            except EOFError:
-                self._lose()
-                return heard
-            heard = heard or bool(frames)
-            for frame in frames:
-                self._take(frame)
-            if not self._wire or self._wire.is_drained:  # another look would be one in vain
-                break
+        assert self._wire
+        try:
+            frames = self._wire.read()
+        except EOFError:
+            self._lose()
+            return False
+        for frame in frames:
+            self._take(frame)
         if self._wire:
             self._wire.flush()
         self._looked = time.monotonic()
-        return heard
+        return bool(frames)
 
     def put(self, frame: Put) -> None:
         """Say something, or nothing while there is no door; raises BusError when the session is closed."""

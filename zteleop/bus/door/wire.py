@@ -13,6 +13,7 @@ T = TypeVar("T")
 _HEAD = 4
 """bytes of a frame's length, little-endian, before it"""
 _AT_ONCE = 2**18
+"""bytes, which is more than a socket holds unless somebody has asked for it: one look takes all there is"""
 _encode = msgspec.msgpack.Encoder().encode
 
 
@@ -24,8 +25,6 @@ class Wire(Generic[T]):
         self._socket = end
         self._decode = msgspec.msgpack.Decoder(hears).decode
         self._buffer = memoryview(bytearray(_AT_ONCE))  # kept: so much anew costs three calls of the system
-        self.is_drained = True
-        """The last look has taken all that had arrived."""
         self._arrived = b""
         self._left = b""
         """What the other end must still take before anything else: the rest of a frame, and what is kept."""
@@ -66,13 +65,11 @@ class Wire(Generic[T]):
         try:
             length = self._socket.recv_into(self._buffer)
         except BlockingIOError:
-            self.is_drained = True
             return []
         except OSError:
             raise EOFError from None
         if not length:
             raise EOFError
-        self.is_drained = length < _AT_ONCE
         data = bytes(self._buffer[:length])
         return self._take(self._arrived + data if self._arrived else data)
 

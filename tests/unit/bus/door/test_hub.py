@@ -53,6 +53,8 @@ def test_zenoh_hands_over_once_for_all_of_them(hub: Hub, zenoh: Zenoh) -> None:
         assert len(zenoh.hearers[KEY]) == 1
         ear.undeclare()
     assert zenoh.hearers[KEY] == []
+    hub.hear(KEY, 1, lambda sample: None)
+    assert len(zenoh.hearers[KEY]) == 1, "and once more for who comes later"
 
 
 def test_who_has_left_hears_no_more_and_may_come_again(hub: Hub, zenoh: Zenoh) -> None:
