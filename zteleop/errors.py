@@ -58,7 +58,7 @@ def meant(name: str, known: Iterable[str]) -> str:
     names = sorted(set(known))
     ends = get_close_matches(_end(name), {_end(one) for one in names}, 3, 0.6)
     alike = [one for one in names if _end(one) in ends]  # whatever stands before it
-    alike = alike or [
+    alike = alike or [  # such as interface/buttons, for interface_buttons
         one for one in names if not _end(name) or get_close_matches(_end(name), [_end(one)], 1, 0.5)
     ]
     near = get_close_matches(name, alike, 3, 0.0 if ends else 0.6)

@@ -106,8 +106,12 @@ class Membership:
         """Look in a thread, and again when it says, until the node closes: for who waits without a loop."""
 
         def run() -> None:
-            while not self._closed.wait(look() - clock.now()):
-                pass
+            try:
+                while not self._closed.wait(look() - clock.now()):
+                    pass
+            except Exception:
+                if not self._closed.is_set():  # else there is nothing left to look at
+                    raise
 
         threading.Thread(target=run, daemon=True).start()
 

@@ -15,7 +15,7 @@ LINK_LOSS = 2.0
 STEP_EVERY = 0.02
 """between two steps of the actuator, and two looks of the watchdog at its clock"""
 STEADY_EVERY = 0.05
-"""the same, while the pulses stay as they are"""
+"""the same, of the actuator while its pulses stay as they are, of the watchdog while the chip rests"""
 LATE_STEP = 0.2
 """between two steps, after which a process knows that it was stopped itself"""
 ACTUATOR_SILENCE = 0.25

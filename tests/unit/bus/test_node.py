@@ -1,6 +1,7 @@
 """A node on a session that is none: what it declares, resolves and refuses. Its travels are system tests."""
 
 import re
+import threading
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -303,3 +304,39 @@ def test_a_program_whose_robot_is_not_heard_learns_that_it_reads_no_settings(
             node.log.show = told.append
             node.publisher("cmd_vel", Twist)
     assert ["it reads no config.toml" in words for words in told] == [True, False]
+
+
+def test_who_looks_beside_a_node_ends_with_it_and_what_is_gone_by_then_is_no_error(
+    node: Node, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told: list[object] = []
+    monkeypatch.setattr(threading, "excepthook", told.append)
+    begun, closed = threading.Event(), threading.Event()
+
+    def look() -> float:
+        begun.set()
+        closed.wait()
+        raise OSError("its ring is gone")
+
+    before = set(threading.enumerate())
+    node.membership.beside(look)
+    (beside,) = set(threading.enumerate()) - before
+    begun.wait()
+    node.close()
+    closed.set()
+    beside.join()
+    assert told == []
+
+
+def test_what_goes_wrong_beside_a_node_that_is_open_is_told(
+    node: Node, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told: list[object] = []
+    monkeypatch.setattr(threading, "excepthook", told.append)
+    before = set(threading.enumerate())
+    begin = threading.Event()
+    node.membership.beside(lambda: begin.wait() and 1 / 0)
+    (beside,) = set(threading.enumerate()) - before
+    begin.set()
+    beside.join()
+    assert len(told) == 1

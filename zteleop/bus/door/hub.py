@@ -54,9 +54,8 @@ class Channel:
     """Those who hear one key."""
 
     def __init__(self) -> None:
-        self.ears: tuple[
-            Ear, ...
-        ] = ()  # never changed, only replaced: zenoh's thread goes through it meanwhile
+        self.ears: tuple[Ear, ...] = ()
+        """never changed, only replaced: zenoh's thread goes through it meanwhile"""
         self.declared: Undeclarable | None = None
 
     def add(self, ear: Ear) -> None:
