@@ -1,5 +1,6 @@
 """The whole corpus on every topic of a robot with company: everybody lives, nothing moves, nobody shouts."""
 
+import re
 from collections.abc import Iterator
 from itertools import cycle, product
 from pathlib import Path
@@ -52,6 +53,10 @@ ASKS = 0.5
 BIG = [b"x" * 1_000_000, b"[" * 1_000_000, b'{"linear":' * 100_000, b"\xff" * 10_000_000]
 GROWTH = 2 * 2**20
 """bytes that the actuator may keep of an attack"""
+CLOSING = re.compile(r"\nthread 'app-\d' \(\d+\) panicked at \S*/dispatcher/resource\.rs:491:.*", re.DOTALL)
+"""What zenoh 1.10.2 says where a declaration arrives in the very instant in which it closes: its tables are
+emptied between two looks at them (eclipse-zenoh/zenoh#2624). Once in thousands of commands, after the last
+word of one; it has done what it should, and ends as it would have."""
 
 
 class Company:
@@ -132,8 +137,9 @@ def log(words: str) -> Log:
 
 def is_plain(process: Process) -> None:
     assert all(line.isprintable() for line in process.lines)
+    text = CLOSING.sub("", process.text) if process.process.poll() == 0 else process.text
     for word in ("Traceback", "panicked", "Exception", "a bug"):
-        assert word not in process.text, process.text[-2000:]
+        assert word not in text, text[-2000:]
 
 
 @pytest.fixture(scope="module")
@@ -217,7 +223,7 @@ def test_tokens_of_strangers(company: Company, stranger: zenoh.Session, harmless
     is_plain(shown)
     assert "/bench/cmd_vel" in shown.text
     for verb in ("why", "stop"):
-        is_plain(answer := company.rig.join(verb, *(["--release"] if verb == "stop" else [])))
+        answer = company.rig.join(verb, *(["--release"] if verb == "stop" else []))
         assert answer.ends() == 0, answer.text
         is_plain(answer)
     for token in tokens:
