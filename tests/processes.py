@@ -21,6 +21,8 @@ import pyte
 PATIENCE = 30.0 * float(os.environ.get("ZTELEOP_PATIENCE", "1"))
 """s until an event that is awaited is given up: no claim, only the end of hope"""
 ZTELEOP = (sys.executable, "-m", "zteleop")
+LAST = b"\0\0\0"
+"""What no program says, and no terminal shows."""
 TAKE_TERMINAL = """
 import fcntl, os, sys, termios
 fcntl.ioctl(0, termios.TIOCSCTTY, 0)
@@ -268,7 +270,13 @@ class Terminal(Process):
         os.close(self._master)
 
     def ends(self) -> int:
-        return self.process.wait(PATIENCE)
+        """Wait for the end, and until all that was said before it has been read; return the exit code."""
+        code = self.process.wait(PATIENCE)
+        os.write(self._slave, LAST)  # goes the same way as the words, behind them
+        with self._said:
+            self._said.wait_for(lambda: LAST in self.output, PATIENCE)
+            self.output = self.output.replace(LAST, b"")
+        return code
 
     def _set_size(self, columns: int, rows: int) -> None:
         """Set the size; the kernel tells whoever is in the foreground by SIGWINCH."""

@@ -16,6 +16,9 @@ from zteleop.terminal.any_terminal import AnyTerminal
 
 HEARD_WITHIN = 0.6
 """s in which a robot that is there is heard"""
+MOTION_EVERY = 0.08
+"""s between two pictures of one motion, at least: every second of twenty a second; what is asked or said is
+shown at once"""
 TRAIL = 400
 TRAIL_STEP = 0.05
 """m"""
@@ -60,6 +63,8 @@ class Painter:
         self._trail: deque[tuple[float, float]] = deque(maxlen=TRAIL)
         self._lines: list[str] = []
         self._shown: object = None
+        self._said: object = None
+        self._drawn = 0.0
 
     def __call__(self, view: View) -> None:
         """Show what is seen now."""
@@ -77,9 +82,11 @@ class Painter:
             keys=device.help,
         )
         size = terminal.size()
-        shown = (dashboard._replace(seen=View()), *visible(view), len(self._trail), size)
-        if shown != self._shown:
-            self._shown = shown
+        said = (dashboard._replace(seen=View(), idle_left=None), *words(view), size)
+        shown = (said, dashboard.idle_left, *visible(view), len(self._trail))
+        is_due = said != self._said or view.now >= self._drawn + MOTION_EVERY
+        if is_due and shown != self._shown:
+            self._shown, self._said, self._drawn = shown, said, view.now
             page = dashboard._replace(trail=self._trail)
             self._lines = render(page, *size, unicode=terminal.unicode, color=terminal.color)
         terminal.draw(self._lines)
@@ -91,6 +98,13 @@ class Painter:
         place, trail = view.odom.pose.pose.position, self._trail
         if not trail or abs(place.x - trail[-1][0]) + abs(place.y - trail[-1][1]) > TRAIL_STEP:
             trail.append((place.x, place.y))
+
+
+def words(view: View) -> tuple[View, object]:
+    """Return what of a view is no mere motion: what is asked, and what the robot says of it."""
+    status = view.status
+    said = status and (status.state, status.why, status.operator, status.stops)
+    return view._replace(now=0.0, status=None, odom=None, silence=0.0), said
 
 
 def visible(view: View) -> tuple[View, object]:

@@ -50,12 +50,14 @@ class Calibration:
             for channel, width in pulse_us.items()
         )
 
-    def exceeds(self, pwm: Pwm) -> bool:
-        """Say whether ticks lie beyond the ends, by more than rounding."""
-        return any(
-            abs(width - self._servos[name].pulse_us(self._servos[name].fraction(width))) > self._tick_us / 2
-            for name, width in self._widths(pwm).items()
-        )
+    def ends(self, pwm: Pwm) -> dict[str, int]:
+        """Return the end, in ticks, of each channel whose ticks lie beyond it by more than rounding."""
+        found = {}
+        for name, width in self._widths(pwm).items():
+            end = self._servos[name].pulse_us(self._servos[name].fraction(width))
+            if abs(width - end) > self._tick_us / 2:
+                found[name] = round(end / self._tick_us)
+        return found
 
     def neutral(self, pwm: Pwm) -> bool:
         """Say whether ticks are those of rest, by no more than rounding."""

@@ -52,7 +52,7 @@ class Drive:
         if verdict.age is not None:
             self._measure(source, verdict, verdict.age, now)
         if verdict.refusal is None and isinstance(command, Pwm):
-            self.clamped += self.calibration.exceeds(command)
+            self.clamped += bool(self.calibration.ends(command))
         return verdict.refusal
 
     def step(self, now: float) -> Step:

@@ -153,7 +153,7 @@ def _limiter(seen: Snapshot) -> str:
         narrowed = ", ".join(_narrowed(seen))
         return f"nothing to limit; set narrower: {narrowed}" if narrowed else "nothing to limit"
     asked, made = wanted(seen), applied(seen)
-    if _near(asked, made):
+    if _near(asked, made) and not _ends(seen, seen.step.claim):
         return "passes it on as asked"
     bounds = "; ".join(_bounds(seen, seen.step.claim, asked, made)) or "the wheels can do no better"
     others = ", ".join(limit for limit in _narrowed(seen) if limit.partition(" ")[0] not in bounds)
@@ -171,6 +171,7 @@ def _narrowed(seen: Snapshot) -> Iterator[str]:
 
 def _bounds(seen: Snapshot, claim: Claim, asked: Twist, made: Twist) -> Iterator[str]:
     """Yield what bounds a claim."""
+    yield from _ends(seen, claim)
     mixer, limits = seen.settings.mixer, seen.limits
     speed = seen.step.bound.speed
     if abs(asked.linear.x) > speed + _LEAST:
@@ -191,6 +192,12 @@ def _bounds(seen: Snapshot, claim: Claim, asked: Twist, made: Twist) -> Iterator
         yield _turn_bound(seen)
     elif abs(_bend(made)) < abs(_bend(asked)) - _LEAST:
         yield "it turns no tighter"
+
+
+def _ends(seen: Snapshot, claim: Claim) -> list[str]:
+    """Return where channels end of which more is asked, in ticks."""
+    ends = seen.calibration.ends(claim.command) if isinstance(claim.command, Pwm) else {}
+    return [f"{name} ends at {ticks} ticks" for name, ticks in ends.items()]
 
 
 def _top(source: str, bound: Bound) -> str:

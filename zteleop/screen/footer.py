@@ -29,7 +29,8 @@ def key_lines(d: Dashboard, columns: int) -> list[Line]:
             lines.append([])
         style = "bold" if does == STOP else "dim"
         lines[-1] += [*([Span("   ")] if lines[-1] else []), Span(key, "bold"), Span(f" {does}", style)]
-    return [Line(7 if index else 3, spans) for index, spans in enumerate(lines)]
+    first = 2 if d.keys else 3  # where each key is shown, the one that stops goes last
+    return [Line(7 if index else first, spans) for index, spans in enumerate(lines)]
 
 
 def hints(d: Dashboard) -> list[tuple[str, str]]:

@@ -6,7 +6,7 @@ from unit.screen.boards import pulses, status
 from zteleop.cli import _painter
 from zteleop.cli._painter import HEARD_WITHIN, TRAIL_STEP, Painter
 from zteleop.inputs.keyboard import Keyboard
-from zteleop.messages import DriveStatus, Odometry, Vehicle
+from zteleop.messages import DriveStatus, Odometry, Pwm, Vehicle
 from zteleop.screen.dashboard import Dashboard
 from zteleop.screen.view import View
 from zteleop.testing import Clock, FakeTerminal
@@ -73,7 +73,7 @@ def test_whatever_can_be_seen_is_shown_at_once(easel: Easel, car: Vehicle) -> No
     for seen in (
         {"said": idle(car, why="a cat")},
         {"said": idle(car, why="a cat"), "note": "news"},
-        {"said": idle(car, why="a cat"), "note": "news", "x": 0.01},
+        {"said": idle(car, why="a cat"), "note": "news", "command": Pwm(400, 370)},
         {"said": None},
     ):
         before = easel.worked
@@ -81,6 +81,14 @@ def test_whatever_can_be_seen_is_shown_at_once(easel: Easel, car: Vehicle) -> No
         assert easel.worked == before + 1, seen
     easel.wall.columns = 60
     assert max(map(len, easel.show(said=None).splitlines())) <= 60
+
+
+def test_a_motion_is_shown_ten_times_a_second_and_to_its_end(easel: Easel, car: Vehicle) -> None:
+    for x in range(20):
+        easel.show(x / 100, idle(car))
+    assert easel.worked == 10
+    assert "x 0.19" in easel.show(0.19, idle(car))
+    assert easel.worked == 11
 
 
 def test_a_trail_is_where_the_robot_has_been(

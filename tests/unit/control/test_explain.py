@@ -60,6 +60,14 @@ def test_ticks_are_told_as_ticks() -> None:
     assert said["limiter"] == "passes it on as asked"
 
 
+def test_of_ticks_beyond_a_channel_its_end_is_said() -> None:
+    robot = Robot()
+    robot.hold(Pwm(9999, 390), 2.0)
+    assert "steering ends at 460 ticks" in says(robot)["limiter"]
+    robot.hold(Pwm(375, 300), 2.0)
+    assert "ends at" not in says(robot)["limiter"]
+
+
 @pytest.mark.parametrize("command", [Twist.planar(2.0), Pwm(375, 480)])
 def test_what_still_accelerates_names_the_acceleration(command: Twist | Pwm) -> None:
     robot = Robot()

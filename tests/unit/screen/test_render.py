@@ -85,6 +85,12 @@ def test_the_page_of_keys_has_no_picture_behind_it(car):
     assert not any("⣿" in line for line in lines)
 
 
+@pytest.mark.parametrize(("columns", "rows"), [(80, 24), (40, 8), (20, 5), (20, 3)])
+def test_the_stop_key_stays_beside_the_page_of_keys_in_any_window(car, columns, rows):
+    page = board(car)._replace(keys=[(f"f{number}", f"does {number}") for number in range(12)])
+    assert any("backspace STOP" in line for line in shown(page, columns, rows))
+
+
 @pytest.mark.parametrize("rows", [24, 12, 8])
 def test_a_page_of_keys_that_does_not_fit_says_how_much_more_there_is(car, rows):
     page = board(car)._replace(keys=[(f"f{number}", f"does {number}") for number in range(12)])
