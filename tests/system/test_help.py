@@ -53,10 +53,14 @@ def says_something_and_ends(process: Process) -> None:
     assert process.ends() == 130, process.text
 
 
+def needs_odometry(text: str) -> bool:
+    return "odom" in text.lower() or find_verb(text.split()[1:])[0] in ("circle", "square")
+
+
 @contextmanager
 def odometry(rig: Rig, text: str) -> Iterator[None]:
     """Let a simulated car say where it is, where that is asked for."""
-    sim = rig.join("sim") if "odom" in text.lower() else None
+    sim = rig.join("sim") if needs_odometry(text) else None
     where = ("--no-multicast-scouting", "--connect", rig.endpoint)
     until(lambda: not sim or rig.result("type", "archangel/odom", *where).returncode == 0, "odometry")
     yield
@@ -90,9 +94,11 @@ def test_an_example_works(rig: Rig, nobody: Rig, verb: str, text: str) -> None:
             says_something_and_ends(
                 place.run(*words, *(["--no-multicast-scouting"] if verb == "actuator" else []))
             )
-    elif "odom" in text.lower():
+    elif needs_odometry(text):
         with odometry(rig, text):
-            assert place.result(*words).stdout
+            result = place.result(*words)
+            assert result.returncode == 0, result.stderr
+            assert result.stdout
     else:
         result = place.result(*words)
         assert (result.returncode, result.stderr) == (0, ""), result.stderr

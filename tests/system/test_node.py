@@ -235,3 +235,14 @@ def test_a_message_of_another_type_is_dropped_counted_and_said(rig: Rig, node: N
     assert re.search(
         r"robot/bench/soil: dropped: expected zteleop_msgs/msg/Pwm, found 'std_msgs/msg/St", line
     )
+
+
+@pytest.mark.parametrize("time", range(8))
+def test_a_program_that_fails_without_a_with_ends_as_any_other_does(rig: Rig, time: int) -> None:
+    """Callbacks that came into Python's own end aborted one in four, without a word."""
+    bus = f"BusSettings(connect=[{rig.endpoint!r}], multicast=False)"
+    program = rig.program(
+        f"from zteleop import BusSettings, Node\nnode = Node('odd', {rig.robot!r}, {bus})\n1 / 0"
+    )
+    assert program.ends() == 1
+    assert program.lines[-1] == "ZeroDivisionError: division by zero"

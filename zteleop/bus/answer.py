@@ -118,8 +118,8 @@ class Answer:
         self._slow = self._slow + 1 if OBEYED_FOR < gap < PAUSE else 0
         if self._slow == TOO_SLOW:
             self._log.warn(
-                f"{self._topic} is said every {gap:.1f} s, and obeyed for {OBEYED_FOR:g} s each time: "
-                f"robot {self._robot} rests in between; publish 10 times a second or more"
+                f"{self._topic} is said every {gap:.1f} s, which is too seldom: robot {self._robot} "
+                "rests in between; publish 10 times a second or more"
             )
 
     def _notice_robot(self, moving: bool) -> None:

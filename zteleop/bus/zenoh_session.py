@@ -1,9 +1,12 @@
 """A session of zenoh as keys and bytes; only this file, `zenoh_open` and `linger` know zenoh."""
 
+import atexit
 import threading
+import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from typing import Any, Protocol, Self
+from weakref import WeakSet
 
 import zenoh
 
@@ -17,6 +20,8 @@ _REPLY_WITHIN = 1.5
 """s for everybody to say which tokens there are"""
 _WORDS = "text/plain"
 """the encoding of a refusal"""
+_DROPPED_WITHIN = 0.05
+"""s for threads of zenoh, once it is closed, to drop what is Python's"""
 _MOST = 50_000
 """tokens that are taken in; a stranger may declare any number"""
 
@@ -36,6 +41,7 @@ class ZenohSession:
         self._connect = connect
         self._kept: list[Undeclarable] = []
         self._overheard: list[OverheardRing] = []
+        _open.add(self)
 
     def subscribe(self, key: str, depth: int) -> "ZenohRing":
         return ZenohRing(self.zenoh.declare_subscriber(key, zenoh.handlers.RingChannel(depth)))
@@ -137,6 +143,7 @@ class ZenohSession:
         loop.every(within, tell)
 
     def close(self) -> None:
+        _open.discard(self)
         self.zenoh.close()  # type: ignore[no-untyped-call]
         for ring in self._overheard:
             ring.close()
@@ -146,6 +153,20 @@ class ZenohSession:
 
     def __exit__(self, *exc: object) -> None:
         self.close()
+
+
+_open: WeakSet[ZenohSession] = WeakSet()
+
+
+@atexit.register
+def _close_all() -> None:
+    """Leave the bus where a program ends without having done so: callbacks would abort Python's own end."""
+    left = list(_open)
+    for session in left:
+        with suppress(zenoh.ZError):
+            session.close()
+    if left:
+        time.sleep(_DROPPED_WITHIN)
 
 
 class ZenohRing:

@@ -2,11 +2,15 @@
 
 import argparse
 import io
+import re
 import sys
 from importlib import import_module
 
 from zteleop.cli import file_of
 from zteleop.processes.ending import in_words
+
+_BACKWARDS = re.compile(r"-[\d.]+[a-z°/]+")
+"""A measure such as -0.2m/s, which argparse would take for an option."""
 
 
 def run_verb(verb: str, text: str, arguments: list[str]) -> int:
@@ -22,7 +26,8 @@ def run_verb(verb: str, text: str, arguments: list[str]) -> int:
     )
     parser.add_argument("--debug", action="store_true", help="show the traceback of an error")
     module.add_arguments(parser)
-    options, unknown = parser.parse_known_args(arguments)
+    words = [f" {word}" if _BACKWARDS.fullmatch(word) else word for word in arguments]
+    options, unknown = parser.parse_known_args(words)
     if unknown:
         parser.error(_unknown(unknown, parser))
     return in_words(f"zteleop {verb}", lambda: module.run(options), debug=options.debug)

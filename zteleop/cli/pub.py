@@ -17,7 +17,7 @@ from zteleop.bus.publisher import Publisher
 from zteleop.bus.topics import topic_of
 from zteleop.cli import _company, _options
 from zteleop.cli._draft import Draft
-from zteleop.cli._outcome import Outcome
+from zteleop.cli._outcome import HEARD_WITHIN, TELL_AFTER, Outcome, await_robot
 from zteleop.cli._pace import Pace
 from zteleop.cli._types import find_type
 from zteleop.control.command import steers_only, to_command
@@ -33,10 +33,6 @@ EXAMPLES = (
     "zteleop pub cmd_vel TwistStamped '{header: auto, twist: {linear: {x: 0.2}}}' --rate 10 --for 1s",
     "zteleop pub archangel/cmd_vel Twist '{linear: {x: 0.3}, angular: {z: 0.5}}' --rate 10 --times 20",
 )
-HEARD_WITHIN = 3.0
-"""s to wait for somebody who hears a topic"""
-TELL_AFTER = 1.0
-"""s of that until it says for whom it waits"""
 SETTLE = 0.1
 """s in which others who hear it are found"""
 OBEYED_FOR = SOURCES["program"].silence
@@ -86,11 +82,11 @@ def run(arguments: argparse.Namespace) -> None:
         if command and not arguments.stdin:
             to_command(draft.make())  # what commands nothing is not said at all
         # Before anything is said: what reads a type for the first time may swallow a Ctrl-C that comes then.
-        outcome = Outcome(node, publisher) if command else None
+        outcome = Outcome("pub", node, publisher) if command else None
         asked = arguments.wait_matching_subscriptions
         wanted = 1 if asked is None else asked
         heard = (
-            _await_robot(node, publisher)
+            await_robot("pub", node, publisher)
             if command
             else _await_hearer(node, publisher, name, wanted, HEARD_WITHIN if asked is None else FAR)
         )
@@ -208,22 +204,6 @@ def _is_command(topic: str, robot: str | None) -> bool:
     with suppress(ConfigError):
         return topic_of(resolve(topic, robot).path).command
     return topic_of(topic).command  # of whichever robot there is
-
-
-def _await_robot(node: Node, publisher: Publisher[Message]) -> bool:
-    """Wait until the robot that a command proves its age to has started; BusError when it does not answer."""
-    heard = node.membership.heard()
-
-    def answers() -> bool:
-        return publisher.matched and heard.beat is not None
-
-    if not node.membership.until(answers, TELL_AFTER):
-        here = _company.here(node.membership.session, node.robot)
-        print(printable(f"zteleop pub: waits for {node.robot}; {here}"), file=sys.stderr, flush=True)
-        if not node.membership.until(answers, HEARD_WITHIN - TELL_AFTER):
-            raise BusError(f"robot {node.robot} does not answer; is its actuator on? {here}")
-    heard.wait(lambda: None)  # it is there: only its start may not be over
-    return True
 
 
 def _check_source(node: Node, name: Name) -> None:

@@ -15,7 +15,7 @@ EXAMPLES = (
     "zteleop why",
     "zteleop why archangel",
 )
-PAST = "; what happened before: zteleop blackbox, on the robot"
+PAST = " what happened before: zteleop blackbox, on the robot"
 HEARD_WITHIN = 2.0
 TELL_AFTER = 1.0
 """s of that until it says for whom it waits"""
@@ -28,7 +28,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> None:
     with _options.join("why", _options.load_anyhow(arguments)) as node:
-        print(answer(node))
+        try:
+            print(answer(node))
+        except BusError as error:
+            if not sys.stdout.isatty():  # kept in a file, it is the answer as well
+                print(printable(f"{error} (at {_moment()})"))
+            raise
 
 
 def answer(node: Node) -> str:
@@ -49,8 +54,9 @@ def answer(node: Node) -> str:
         print(printable(f"zteleop why: waits for {node.robot}; {here}"), file=sys.stderr, flush=True)
     node.membership.until(complete, HEARD_WITHIN - TELL_AFTER)
     if status is None and dog is None:
+        end = "" if here.endswith("?") else ";"
         raise BusError(
-            f"no actuator of {node.robot} is heard within {HEARD_WITHIN:g} s; is it on? {here}{PAST}"
+            f"no actuator of {node.robot} is heard within {HEARD_WITHIN:g} s; is it on? {here}{end}{PAST}"
         )
     lines = [
         f"{node.robot} is {status.state}: {status.why}" if status else f"{node.robot}: no actuator heard"
@@ -58,15 +64,20 @@ def answer(node: Node) -> str:
     lines += [f"  {layer.name:9} {layer.says}" for layer in (why.layers if why else [])]
     lines.append(f"  {'watchdog':9} {state_of(dog) if dog else 'is not heard'}")
     lines += [f"  {'who':9} {who}" for who in named("\n".join(lines), node)]
-    lines.append(f"  {'at':9} {datetime.now(UTC):%Y-%m-%d %H:%M:%S} UTC")
+    lines.append(f"  {'at':9} {_moment()}")
     return "\n".join(map(printable, lines))
+
+
+def _moment() -> str:
+    return f"{datetime.now(UTC):%Y-%m-%d %H:%M:%S} UTC"
 
 
 def named(text: str, node: Node) -> Iterator[str]:
     """Yield which node each sender is that a text calls by its last digits."""
     for sender, one in sorted(presence.senders(node.membership.session, node.robot or "").items()):
         if found := re.search(rf"\b[a-z_]\w* {sender[-4:].zfill(4)}\b", text):
-            yield f"{found[0]} is {one.node} on {one.process}"
+            host, _, number = one.process.rpartition("-")
+            yield f"{found[0]} is {one.node}, process {number} on {host}"
 
 
 def state_of(dog: WatchdogStatus) -> str:

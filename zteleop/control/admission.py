@@ -6,7 +6,7 @@ from typing import NamedTuple
 from zteleop.control.calibration import Calibration
 from zteleop.control.deadlines import HEARD_LATE
 from zteleop.control.foreign import Foreigners
-from zteleop.control.gate import Gate, Refusal
+from zteleop.control.gate import BEGUN_BEFORE, Gate, Refusal
 from zteleop.control.hold import PAUSE, Hold, Holds
 from zteleop.control.left import EARLY, Left
 from zteleop.control.mux import Claim, Claims, Mux, Silences
@@ -19,8 +19,7 @@ from zteleop.messages import Beat, Pwm, State, Stop, Twist
 RECENT = 1.0
 """s for which a refusal is told beside the reason to rest"""
 LACKS_AN_ACT = (Refusal.OPERATOR_IDLE, Refusal.INTERRUPTED)
-BEFORE: dict[State, Refusal] = {"fault": Refusal.BEFORE_REPAIR}
-"""Why whatever began before the end of a hold does not count, where it is not the start."""
+BEFORE: dict[State, Refusal] = {"fault": Refusal.BEFORE_REPAIR}  # the end of a hold; of others the start
 
 
 class Interruption(NamedTuple):
@@ -235,8 +234,11 @@ class Admission:
         if self.silences.idle(newest, min(now, fell_silent, unheard)):  # the first deadline to pass
             idle = f"no act on {_name(newest)} for {now - newest.acted:.1f} s"
             return "operator idle", f"{idle}; the next one drives"
+        if self._refused_for(newest, now) in BEGUN_BEFORE:
+            return "idle", "nobody drives"  # it talks, and is told why that counts for nothing
         if self._waits_for_an_act(newest, now):
-            return "link lost", f"{_name(newest)} was not heard for a while, and waits for a new act"
+            words = f"was not heard for more than {silence:g} s, and waits for a new act"
+            return "link lost", f"{_name(newest)} {words}"
         if now < fell_silent:
             return "link lost", f"{_name(newest)} has not heard the robot for {now - newest.beat:.1f} s"
         return "link lost", f"{_name(newest)} has been silent for {now - newest.at:.1f} s"

@@ -35,6 +35,15 @@ class Refusal(StrEnum):
     NO_SUCH_CHANNEL = "this vehicle has no steering and throttle; send a twist"
 
 
+BEGUN_BEFORE = (
+    Refusal.EARLIER_START,
+    Refusal.NOT_FROM_NEUTRAL,
+    Refusal.BEFORE_RELEASE,
+    Refusal.BEFORE_REPAIR,
+)
+"""Whoever is refused so talks on, and lacks more than an act."""
+
+
 class Seen(Struct):
     """What the gate remembers of a sender."""
 

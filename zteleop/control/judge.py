@@ -46,6 +46,10 @@ class EveryClaim:
     def clear(self) -> None:
         self._claims.clear()
 
+    def end(self, floor: float) -> None:
+        """Forget what began no later than that."""
+        self._claims = {key: claim for key, claim in self._claims.items() if claim.began > floor}
+
     def select(self, now: float, after: float = NEVER) -> Claim | None:
         """Return any claim that may move the robot, heard later than `after`; None when nobody may."""
         return next(
@@ -59,7 +63,8 @@ class Judge:
     def __init__(self, settings: DriveSettings, tick_us: float, now: float) -> None:
         later = _later(settings)
         self._calibration = Calibration(settings.servos, tick_us)
-        self._admission = Admission(later, self._calibration, -1, now, EveryClaim, GRACE)
+        self._claims = EveryClaim(Silences({}, 0.0))
+        self._admission = Admission(later, self._calibration, -1, now, self._keep, GRACE)
         self.neutral_us = self._calibration.neutral_us
         self._epoch = -1
         self._stopped: float | None = None
@@ -110,6 +115,7 @@ class Judge:
             self._stopped = None
             self.hear_release(now)
             self._admission.gate.begin_after(self._last_stopped)  # it may have been released since
+            self._claims.end(self._admission.gate.floor)
         if self._must_rest(now):
             self._admission.mux.clear()
 
@@ -135,6 +141,10 @@ class Judge:
             return None
         why = "a stop is in force" if self._must_rest(now) else self._admission.rest(now)[1]
         return f"its pulses moved although {why.partition('; the next ')[0]}"
+
+    def _keep(self, silences: Silences) -> EveryClaim:
+        self._claims = EveryClaim(silences)
+        return self._claims
 
     def _must_rest(self, now: float) -> bool:
         return self._stopped is not None and now - self._stopped > GRACE

@@ -36,7 +36,7 @@ AS_IT_IDLES = 0.5
 """s after an operator's deadline in which it is no news that what comes is refused"""
 DEAF = "deaf"
 UNHEARD = "the watchdog does not hear this robot on the bus"
-TAKEN_OVER = "its actuator came late, and was started again"
+TAKEN_OVER = "it stood still for a moment, and its actuator was started again"
 FORGOT = "the chip has lost its settings, and the ESC perhaps its supply, while no actuator was there"
 
 
@@ -99,9 +99,9 @@ class Actuator:
             self._node.subscription("stop", Stop, lambda received: self._obey(received.message))
             self._node.membership.departures(self._withdraw)
             self._node.membership.loop.watch(self._link.fileno(), self._hear_watchdog)
-            self._node.log.info(f"{self._node.robot} obeys; zteleop keyboard drives it")
-            if held := self._drive.admission.latch.stops:
-                self._node.log.warn(stopped_by(held))
+            held, log = self._drive.admission.latch.stops, self._node.log
+            more = f" once it is released: {stopped_by(held)}" if held else "; zteleop keyboard drives it"
+            (log.warn if held else log.info)(f"{self._node.robot} obeys{more}")
             self._journal.event("start", robot=self._node.robot, epoch=self._drive.admission.gate.epoch)
             if why := self._drive.admission.interruption.why:
                 self._node.log.warn(f"{why}; whoever drove goes on with the next act")

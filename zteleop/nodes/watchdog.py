@@ -71,7 +71,7 @@ class Watchdog:
         for number in signals.ENDING:
             if signal.getsignal(number) != signal.SIG_IGN:  # which nohup wants
                 signal.signal(number, self._end_by)
-        words = "Ctrl-Z would leave the wheels turning, and pauses nothing; Ctrl-C ends this"
+        words = "Ctrl-Z at the robot pauses nothing, for its wheels would turn on; Ctrl-C there ends it"
         signals.stay(lambda: self._node.membership.loop.call_soon(lambda: self._node.log.warn(words)))
         try:
             steps = self._node.membership.loop.every(
@@ -131,11 +131,11 @@ class Watchdog:
             self._obey(heard, now)
         if ignored := self._ears.listen(now):
             self._engage(ignored)
+        silence = self._child.silence(clock.now())  # `now` is older than a step that came since
         if self._restart_at is not None:
             self._keep_at_rest(now)
-        elif self._patience.is_over(self._child.silence(now), self._hand.took, self._child.ready, now):
-            why = self._patience.lose(self._child.silence(now), self._child.ready)
-            self._fell(why, 0.0, late=True)
+        elif self._patience.is_over(silence, self._hand.took, self._child.ready, now):
+            self._fell(self._patience.lose(silence, self._child.ready), 0.0, late=True)
         return STEP_EVERY if self._judge.moving or self._state != "watching" else STEADY_EVERY
 
     def _beat(self) -> None:

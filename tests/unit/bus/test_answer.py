@@ -246,7 +246,7 @@ def test_a_program_that_moves_the_robot_too_seldom_is_told_once(sender: Sender) 
         sender.clock.pass_by(0.9)
         sender.say()
     (line,) = sender.news
-    assert "cmd_vel is said every 1.0 s, and obeyed for 0.5 s each time" in line
+    assert "cmd_vel is said every 1.0 s, which is too seldom: robot archangel rests in between" in line
     assert "publish 10 times a second or more" in line
 
 

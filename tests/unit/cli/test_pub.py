@@ -59,7 +59,7 @@ def say(
 
     node.spin = spin
     try:
-        pub._say(node, said, lambda: message, 10.0, times, resume, 0.5, pub.Outcome(node, said))
+        pub._say(node, said, lambda: message, 10.0, times, resume, 0.5, pub.Outcome("pub", node, said))
     except KeyboardInterrupt:
         assert times is None
     return said.messages
@@ -118,7 +118,7 @@ def test_who_asks_for_more_than_the_robot_makes_is_told_once(
     node, status = FakeNode(), does("driving", "", "ff")
     node.membership.heard().vehicle = car
     status.wanted, status.max_speed, status.slowed = asked, 0.5, slowed
-    outcome = pub.Outcome(node, Said("cmd_vel", "ff"))  # type: ignore[arg-type]
+    outcome = pub.Outcome("pub", node, Said("cmd_vel", "ff"))  # type: ignore[arg-type]
     hear = node.inboxes["drive_status"].handlers[0]
     others = does("driving", "", "aa")
     others.wanted = Twist.planar(70.0)
@@ -257,7 +257,7 @@ def test_a_motion_that_no_wheels_make_is_a_failure(stamped: bool) -> None:
 
 def test_one_motion_that_no_wheels_make_among_others_is_no_failure() -> None:
     node = FakeNode()
-    outcome = pub.Outcome(node, Said("cmd_vel", "ff"))  # type: ignore[arg-type]
+    outcome = pub.Outcome("pub", node, Said("cmd_vel", "ff"))  # type: ignore[arg-type]
     for message in (Twist(Vector3(0.0, 0.2, 0.0), Vector3.zero()), FORWARD):
         outcome.note(message)
     node.inboxes["drive_status"].handlers[0](SimpleNamespace(message=does("driving", "", "ff")))

@@ -29,6 +29,7 @@ def verb(monkeypatch: pytest.MonkeyPatch) -> Verb:
 
         def add_arguments(parser: argparse.ArgumentParser) -> None:
             parser.add_argument("--speed", type=float)
+            parser.add_argument("motion", nargs="*")
 
         module = SimpleNamespace(EXAMPLES=(), add_arguments=add_arguments, run=act)
         monkeypatch.setattr(_run, "import_module", {"zteleop.cli.fly": module}.__getitem__)
@@ -46,6 +47,10 @@ def verb(monkeypatch: pytest.MonkeyPatch) -> Verb:
 @pytest.mark.parametrize(("ending", "code"), [(None, 0), (0, 0), (1, 1), (7, 7)])
 def test_what_a_verb_returns_is_the_exit_code(verb: Verb, ending: int | None, code: int) -> None:
     assert verb(ending) == code
+
+
+def test_a_measure_with_a_minus_is_no_option(verb: Verb) -> None:
+    assert verb(arguments=["--speed", "-0.5", "-20cm/s", "-.5m/s", "-30deg/s"]) == 0
 
 
 @pytest.mark.parametrize("kind", [ConfigError, MessageError, BusError, DeviceError])

@@ -1,3 +1,5 @@
+import argparse
+import sys
 from collections.abc import Callable
 from contextlib import nullcontext
 from datetime import UTC, datetime
@@ -66,7 +68,7 @@ def test_a_sender_that_is_spoken_of_is_told_by_its_node_and_process() -> None:
     keys = {f"robot/archangel/live/sender/{sender}/desk/mac-7" for sender in ("ff", "a00ff", "10ff", "7")}
     desk.membership.session.tokens = lambda selector: keys
     lines = answer(desk).splitlines()
-    assert lines[-3:-1] == ["  who       keyboard 00ff is desk on mac-7"] * 2, (
+    assert lines[-3:-1] == ["  who       keyboard 00ff is desk, process 7 on mac"] * 2, (
         "whose last digits are the same"
     )
 
@@ -91,6 +93,22 @@ def test_nobody_there_is_an_error_in_words_that_names_who_is_and_is_told_sooner(
         answer(silent)
     assert silent.patience == why.HEARD_WITHIN - why.TELL_AFTER
     assert capsys.readouterr().err == "zteleop why: waits for archangel; heard here: zoe\n"
+
+
+@pytest.mark.parametrize("is_terminal", [True, False])
+def test_where_nobody_answers_a_file_says_so_as_well(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], is_terminal: bool
+) -> None:
+    def join(verb: str, settings: Any) -> FakeNode:
+        return node()
+
+    monkeypatch.setattr(why._company.presence, "robots", lambda session: ["archangle"])
+    monkeypatch.setattr(why._options, "join", join)
+    monkeypatch.setattr(why._options, "load_anyhow", lambda arguments: None)
+    monkeypatch.setattr(sys.stdout, "isatty", lambda: is_terminal)
+    with pytest.raises(BusError, match=r"did you mean archangle\? what happened before: "):
+        why.run(argparse.Namespace())
+    assert bool(capsys.readouterr().out) is not is_terminal
 
 
 @pytest.mark.parametrize(

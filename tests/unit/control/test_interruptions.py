@@ -419,11 +419,20 @@ def test_whoever_talks_on_without_an_act_is_not_told_that_he_is_silent(robot: Ro
     robot.hold(FORWARD, 0.5)
     robot.wait(0.5)
     assert not moves(robot.hold(FORWARD, 0.5, act=False))
-    waits = "keyboard 0001 was not heard for a while, and waits for a new act"
+    waits = "keyboard 0001 was not heard for more than 0.3 s, and waits for a new act"
     assert robot.drive.admission.rest(robot.now) == ("link lost", waits)
     robot.hold(FORWARD, 2.5, act=False)
     state, why = robot.drive.admission.rest(robot.now)
     assert (state, "silent" in why) == ("idle", False)
+
+
+def test_who_talks_again_after_too_long_is_not_said_to_be_silent(robot: Robot) -> None:
+    """As a program with a long handler: what it says is refused, and nothing grows but the refusals."""
+    robot.hold(FORWARD, 0.5)
+    robot.wait(3.0)
+    assert not drives_on(robot)
+    state, why = robot.drive.admission.rest(robot.now)
+    assert (state, why.partition(":")[0]) == ("idle", "nobody drives; keyboard 0001 is refused")
 
 
 def test_who_is_back_and_refused_is_not_called_gone(robot: Robot) -> None:

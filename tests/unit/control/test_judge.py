@@ -225,6 +225,21 @@ def test_who_drives_on_through_a_stop_is_not_given_it_back(robot: Watched) -> No
     assert robot.why
 
 
+def test_whoever_talked_through_a_stop_is_let_pass_by_nobody_after_its_release(robot: Watched) -> None:
+    robot.say(FORWARD)
+    robot.rest(True)
+    for _ in range(20):
+        robot.wait(0.05)
+        robot.say(FORWARD)
+        robot.judge.rest(True, robot.now)
+    robot.say(FORWARD)  # in the moment between the judge's last look at the stop and the release
+    robot.rest(False)
+    for _ in range(20):
+        assert not robot.judge.allowed(robot.now)
+        robot.wait(0.05)
+        assert robot.say(FORWARD) is Refusal.BEFORE_RELEASE
+
+
 def test_a_command_heard_before_the_release_it_follows_counts(robot: Watched) -> None:
     robot.rest(True)
     robot.wait(1.0)

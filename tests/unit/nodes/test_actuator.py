@@ -163,6 +163,12 @@ def test_it_hears_every_source_it_knows_by_name_and_stops(node: FakeNode, clock:
     assert node.infos[0] == "archangel obeys; zteleop keyboard drives it"
 
 
+def test_one_that_starts_stopped_says_first_of_all_that_it_is(node: FakeNode, clock: Clock) -> None:
+    Robot(node, clock, shelf=Shelf(Stop(engaged=True, id=3, by="ann@desk", why="a cat")))
+    assert node.infos == []
+    assert node.warnings[0].startswith("archangel obeys once it is released: stopped by ann@desk: a cat")
+
+
 def test_the_chip_starts_at_neutral_and_is_left_at_neutral(node: FakeNode, clock: Clock) -> None:
     chip, journal = MemoryChip(), Journal()
     actuator = Actuator(node, DriveSettings(), chip, Link(), Shelf(), LimitsShelf(), journal)
@@ -301,7 +307,10 @@ def test_one_in_anothers_place_goes_on_with_the_next_act_and_arms_nothing(
         robot.say(PUSH, proof=prover.prove(robot.beat, True, 0.1))
         robot.tick()
     assert robot.chip.pulses != NEUTRAL
-    assert ("interruption", {"why": "its actuator came late, and was started again"}) in robot.journal.events
+    assert (
+        "interruption",
+        {"why": "it stood still for a moment, and its actuator was started again"},
+    ) in robot.journal.events
 
 
 def test_one_in_the_place_of_another_that_nobody_drove_lets_the_esc_arm(node: FakeNode, clock: Clock) -> None:

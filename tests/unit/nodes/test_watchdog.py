@@ -101,7 +101,8 @@ class Child:
             self.stopped_since = (self.stopped_since or now) if stopped else None
 
     def silence(self, now: float) -> float:
-        return now - (self.newest.stepped if self.newest else self.started)
+        last = self.newest.stepped if self.newest else self.started
+        return now - (last if last <= now else self.started)
 
     def ask_to_end(self) -> None:
         self.log.append("ask")
@@ -912,6 +913,21 @@ def test_an_actuator_whose_end_somebody_else_holds_has_ended(awake: Kennel) -> N
     awake.child.alive = False  # and its link says nothing of that
     awake.hear_actuator()
     assert awake.resting
+
+
+def test_a_step_that_came_while_its_reports_were_read_is_no_silence(
+    awake: Kennel, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    hear = awake.child.hear
+
+    def hear_late(now: float) -> None:
+        """Read a report of a step that was made after the tick had looked at the clock."""
+        awake.clock.pass_by(0.0001)
+        hear(now + 0.0001)
+
+    monkeypatch.setattr(awake.child, "hear", hear_late)
+    awake.live(5.0)
+    assert (awake.child.starts, awake.resting) == (1, False)
 
 
 def test_reports_are_heard_although_they_wake_nobody(awake: Kennel) -> None:

@@ -1,0 +1,90 @@
+import argparse
+from math import radians
+
+import pytest
+
+from zteleop.cli import circle, drive, square
+from zteleop.cli._motion import measure, went
+from zteleop.control.motion.pose import Pose2D
+from zteleop.control.motion.trail import Trail
+from zteleop.errors import ConfigError
+from zteleop.messages import Twist, Vehicle
+
+
+def trail(*poses: Pose2D) -> Trail:
+    found = Trail()
+    for number, pose in enumerate(poses):
+        found.add(pose, number * 0.1)
+    return found
+
+
+def arc(radius: float, angle: float) -> Trail:
+    """Return what is seen of an arc to the left, so far round, rad."""
+    return trail(*(Pose2D().roll(radius * angle * part / 50, angle * part / 50) for part in range(51)))
+
+
+@pytest.mark.parametrize(
+    ("words", "twist"),
+    [
+        (["0.2m/s"], Twist.planar(0.2)),
+        (["30deg/s"], Twist.planar(0.0, radians(30))),
+        (["20cm/s", "-1rad/s"], Twist.planar(0.2, -1.0)),
+        (["-1rad/s", "20cm/s"], Twist.planar(0.2, -1.0)),
+        (["0.2", "0.5"], Twist.planar(0.2, 0.5)),
+        ([" -0.2m/s"], Twist.planar(-0.2)),
+    ],
+)
+def test_a_motion_is_typed_in_any_order_with_units_or_without(words: list[str], twist: Twist) -> None:
+    made = drive.to_twist(words)
+    assert (made.linear.x, made.angular.z) == pytest.approx((twist.linear.x, twist.angular.z))
+
+
+@pytest.mark.parametrize(
+    ("words", "wrong"),
+    [
+        (["fast"], "expected a speed such as 0.2m/s, found 'fast'"),
+        (["2m"], "'2m', which is a length"),
+        (["1m/s", "2m/s"], "expected a turning speed such as 30deg/s, found '2m/s', which is a speed"),
+        (["1rad/s", "1deg/s"], "expected a speed such as 0.2m/s, found '1deg/s', which is a turning speed"),
+        (["1", "2", "3"], "found '3' as well"),
+    ],
+)
+def test_what_is_no_motion_is_said_to_be_none(words: list[str], wrong: str) -> None:
+    with pytest.raises(ConfigError, match=wrong):
+        drive.to_twist(words)
+
+
+def test_a_measure_is_more_than_nothing() -> None:
+    assert measure("length")("50cm") == 0.5
+    for text in ("0", " -1m", "1s"):
+        with pytest.raises(argparse.ArgumentTypeError):
+            measure("length")(text)
+
+
+@pytest.mark.parametrize(("text", "found"), [("2", 2.0), ("0.5", 0.5)])
+def test_laps_are_a_number(text: str, found: float) -> None:
+    assert circle.laps(text) == found
+
+
+@pytest.mark.parametrize("text", ["0", "-1", "none", "nan", "inf", "1001"])
+def test_what_is_no_number_of_laps_is_refused(text: str) -> None:
+    with pytest.raises(argparse.ArgumentTypeError, match="expected a number of laps"):
+        circle.laps(text)
+
+
+def test_a_circle_too_tight_for_a_car_is_said_with_what_it_can(car: Vehicle, tank: Vehicle) -> None:
+    with pytest.raises(ConfigError, match=r"bench drives no circle of 0\.2 m: its steering allows 60cm"):
+        circle.check(car, 0.2, "bench")
+    circle.check(car, 0.6, "bench")
+    circle.check(tank, 0.2, "bench")
+
+
+def test_what_came_of_it_is_told_in_its_own_measures() -> None:
+    quarter = arc(0.5, radians(90))
+    assert went(quarter) == "went 0.79 m and turned +90 deg in 5.0 s, on a circle of 0.50 m"
+    assert went(trail(Pose2D(), Pose2D(0.2))) == "went 0.20 m and turned +0 deg in 0.1 s"
+    spot = [Pose2D(heading=radians(5 * step)) for step in range(10)]
+    assert went(trail(*spot)) == "went 0.00 m and turned +45 deg in 0.9 s"
+    assert circle.told(quarter, 0.6).startswith("a radius of 0.50 m, as odometry saw it; 0.60 m were meant")
+    assert circle.told(trail(Pose2D(), Pose2D(0.2)), 0.6).startswith("no circle")
+    assert square.told(trail(Pose2D(), Pose2D(0.3, 0.4))).startswith("ended 0.50 m from where it began")

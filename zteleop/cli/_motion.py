@@ -1,0 +1,156 @@
+"""Drives a course from a shell, and tells what odometry saw of it."""
+
+import argparse
+from collections.abc import Callable
+from math import degrees
+
+from zteleop.bus import clock
+from zteleop.bus.escape import printable
+from zteleop.bus.node import Node
+from zteleop.bus.subscription import Received
+from zteleop.bus.topics import TOPICS
+from zteleop.cli._outcome import Outcome, await_robot
+from zteleop.control.motion.course import Course
+from zteleop.control.motion.pose import Pose2D, pose_of
+from zteleop.control.motion.progress import Progress
+from zteleop.control.motion.trail import Trail
+from zteleop.errors import BusError, ConfigError
+from zteleop.messages import Odometry, Twist, Vehicle
+from zteleop.text.quantity import Dimension, quantity
+
+PERIOD = TOPICS["cmd_vel"].every
+ANSWERED_WITHIN = 3.0
+"""s in which a robot that is there obeys, or says why it does not"""
+SILENT = 1.0
+"""s without a word of a robot's, after which nobody drives it on"""
+SEEN_WITHIN = 2.0
+"""s to wait for the first odometry"""
+STANDS = 0.5
+"""s after the last command in which it comes to rest, and is still looked at"""
+
+
+class Motion:
+    """One course of one robot: it ends with the course, or where the robot obeys no more."""
+
+    def __init__(self, verb: str, node: Node) -> None:
+        """Wait for the robot; raises BusError when it does not answer."""
+        self._node = node
+        self._publisher = node.publisher("cmd_vel", Twist, wait=False)
+        self._outcome = Outcome(verb, node, self._publisher)
+        await_robot(verb, node, self._publisher)
+        self._progress = Progress()
+        self._trail = Trail()
+        self._pose: Pose2D | None = None
+        self._seen = clock.now()
+        self._began = self._lost = clock.now()
+        self._why = ""
+        node.subscription("odom", Odometry, self._see)
+
+    @property
+    def vehicle(self) -> Vehicle:
+        """What is driven; raises BusError where it does not say."""
+        heard = self._node.membership.heard()
+        if not self._node.membership.until(lambda: heard.vehicle, ANSWERED_WITHIN) or not heard.vehicle:
+            raise BusError(f"{self._node.robot} does not say what it is; is that its actuator?")
+        return heard.vehicle
+
+    def look(self) -> Pose2D:
+        """Return where the robot is; raises BusError where nobody says so."""
+        if not self._node.membership.until(lambda: self._pose, SEEN_WITHIN) or not self._pose:
+            words = f"nobody says where {self._node.robot} is, on /{self._node.robot}/odom"
+            raise BusError(f"{words}; for a simulated robot zteleop sim does")
+        return self._pose
+
+    def drive(self, course: Course, tell: Callable[[Trail], str], *, by_sight: bool = True) -> None:
+        """Drive to the end of a course and print what came of it; `by_sight` is only while it is seen.
+
+        Raises BusError where it was not obeyed to the end.
+        """
+        over = False
+        self._began = clock.now()
+
+        @self._node.every(PERIOD)
+        def step() -> None:
+            if over:
+                return
+            now = clock.now()
+            self._why = self._hindrance(now, by_sight)
+            twist = None if self._why else course.twist(self._pose or Pose2D(), now)
+            if twist is None:
+                self._node.stop()
+            else:
+                self._outcome.note(twist)
+                self._publisher.publish(twist)
+                self._progress.ask(twist, PERIOD)
+
+        try:
+            self._node.spin()
+        finally:
+            over = True
+            self._publisher.let_go()
+            self._node.spin(STANDS)
+            if (
+                self._outcome.obeyed or self._trail.way > 0
+            ):  # Ctrl-C may have come before the word that it obeys
+                print(printable(self._told(tell)), flush=True)
+        self._outcome.check()
+        if self._why:
+            raise BusError(f"not driven to its end: {self._why}")
+
+    def _told(self, tell: Callable[[Trail], str]) -> str:
+        if self._trail:
+            return tell(self._trail)
+        return f"nobody says where {self._node.robot} is: what it did was not measured"
+
+    def _hindrance(self, now: float, by_sight: bool) -> str:
+        """Return why not to go on; nothing while there is no reason."""
+        outcome, robot = self._outcome, self._node.robot
+        if not outcome.lost:
+            self._lost = now
+        elif outcome.is_taken or now - self._lost > SILENT:  # whatever else is a moment's is begun anew
+            return outcome.lost
+        if not outcome.obeyed:
+            waited = now - self._began > ANSWERED_WITHIN
+            return self._publisher.refused or ("it does not obey" if waited else "")
+        if now - outcome.heard_at > SILENT:
+            return f"{robot} says nothing any more"
+        if by_sight and now - self._seen > SILENT:
+            return f"nobody says any more where {robot} is"
+        if self._trail and self._progress.is_stuck(self._trail, now):
+            return f"{robot} hardly moves; does something stand before it?"
+        return ""
+
+    def _see(self, received: Received[Odometry]) -> None:
+        self._pose, self._seen = pose_of(received.message), clock.now()
+        self._trail.add(self._pose, self._seen)
+
+
+def measure(dimension: Dimension) -> Callable[[str], float]:
+    """Return what reads a measure as typed, such as 50cm; of more than nothing."""
+
+    def read(text: str) -> float:
+        try:
+            found = quantity(text, dimension)
+        except ConfigError as error:
+            raise argparse.ArgumentTypeError(str(error)) from None
+        if found <= 0:
+            raise argparse.ArgumentTypeError(f"expected more than nothing, found {text.strip()}")
+        return found
+
+    return read
+
+
+def announce(node: Node, twist: Twist) -> None:
+    """Say what is published, as `zteleop pub` would take it."""
+    values = f"{{linear: {{x: {twist.linear.x:.3g}}}, angular: {{z: {twist.angular.z:.3g}}}}}"
+    print(f"says /{node.robot}/cmd_vel Twist '{values}', {1 / PERIOD:.0f} times a second", flush=True)
+
+
+def went(trail: Trail) -> str:
+    """Return how far it went and how far it turned, and on which circle, if on one."""
+    is_arc = trail.way > 0.05 and abs(degrees(trail.turned)) >= 20
+    radius = trail.radius() if is_arc else None
+    bend = f", on a circle of {radius:.2f} m" if radius else ""
+    return (
+        f"went {trail.way:.2f} m and turned {degrees(trail.turned):+.0f} deg in {trail.seconds:.1f} s{bend}"
+    )
