@@ -246,3 +246,16 @@ def test_a_program_that_fails_without_a_with_ends_as_any_other_does(rig: Rig, ti
     )
     assert program.ends() == 1
     assert program.lines[-1] == "ZeroDivisionError: division by zero"
+
+
+def test_a_program_is_told_of_a_source_that_its_robot_has_not(rig: Rig) -> None:
+    lidar = program(rig, 'with node:\n    node.publisher("cmd_vel/lidar", Twist)')
+    assert lidar.ends() == 0
+    assert "robot bench has no source 'lidar'; known: " in lidar.text
+    assert "[drive.sources.lidar] in its config.toml adds one" in lidar.text
+
+
+def test_a_type_in_the_place_of_a_name_is_said_to_be_one(rig: Rig) -> None:
+    turned = program(rig, 'with node:\n    node.publisher(Twist, "cmd_vel")')
+    assert turned.ends() == 1
+    assert "expected a topic's name, such as 'cmd_vel', and then its type; found <class" in turned.lines[-1]

@@ -3,7 +3,7 @@
 from zteleop.bus import clock
 from zteleop.bus.heard import Heard
 from zteleop.bus.log import NodeLog
-from zteleop.control.command import IN_VAIN, STEERS_ONLY, asks_in_vain
+from zteleop.control.command import IN_VAIN, STEERS_ONLY, asks_in_vain, beyond_ends
 from zteleop.control.gate import Refusal
 from zteleop.control.proof import NEVER
 from zteleop.control.settings import SOURCES
@@ -95,6 +95,8 @@ class Answer:
         if not moving:
             if asks_in_vain(message):
                 self._log.warn(f"what is said on {self._topic} moves nothing: {IN_VAIN}")
+        elif words := beyond_ends(message, self._heard.vehicle):
+            self._log.warn(f"what is said on {self._topic} is more than the robot does: {words}")
         elif self._told_of_turns is False and steers:
             self._told_of_turns = True
             self._log.warn(

@@ -53,6 +53,8 @@ def chunk(text: str, what: str) -> str:
 
 def resolve(text: str, robot: str | None) -> Name:
     """Return what a topic's name stands for; raises ConfigError when it says no robot or is no name."""
+    if not isinstance(text, str):  # who comes from rclpy names the type first
+        raise ConfigError(f"expected a topic's name, such as 'cmd_vel', and then its type; found {text!r}")
     parts = text.removeprefix("/").removeprefix("robot/").rstrip("/").split("/")
     of_ros = text.startswith("/") and len(parts) == 1 and parts[0] not in ("", robot)  # /odom, as ROS says it
     absolute = text.startswith(("/", "robot/")) and not of_ros

@@ -99,8 +99,12 @@ class Node:
 
     def _await(self, robot: str) -> bool:
         words = f"waits for robot {robot}, {HEARD_WITHIN:g} s at most; is its actuator on?"
-        hint = f" (zteleop node list shows who is there){self._hint}"
-        return self.membership.heard(robot).wait(lambda: self.log.info(words + hint))
+
+        def tell() -> None:
+            here = presence.here(self.membership.session, robot)
+            self.log.info(f"{words} {here} (zteleop node list shows who is there){self._hint}")
+
+        return self.membership.heard(robot).wait(tell)
 
     def publisher(
         self, topic: str, types: Types[M], *, source: str = PROGRAM, wait: bool = True
@@ -144,6 +148,8 @@ class Node:
         answer = Answer(f"{sender:x}", said, name.robot, heard, self.log, self._hint, is_program)
         if not found:
             answer.miss()
+        elif wait and (words := presence.unknown_source(self.membership.session, name)):
+            self.log.warn(words)
         self.membership.session.declare_token(presence.sender_key(name.robot, sender, self.name))
         publisher = Publisher[M](
             self.membership.outlet(name, kinds, about.urgent),

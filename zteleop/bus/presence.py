@@ -13,11 +13,13 @@ process is its host and number. Zenoh removes a token with its process.
 import os
 import re
 import socket
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Literal, NamedTuple
 
 from zteleop.bus.names import Name, is_robot
 from zteleop.bus.session import Sample, Session
+from zteleop.control.settings import SOURCES
+from zteleop.errors import nearest
 from zteleop.messages import MESSAGES, Message
 
 Kind = Literal["pub", "sub"]
@@ -253,3 +255,40 @@ def endpoint_of(key: str) -> Endpoint | None:
 def _tokens(session: Session, selector: str) -> set[str]:
     """Return the keys of the tokens there are; anybody may declare anything, also for every robot at once."""
     return {key for key in session.tokens(selector) if key.isprintable() and "*" not in key}
+
+
+def unknown_source(session: Session, name: Name) -> str:
+    """Say of a command topic that its robot has no such source, if so: it hears each of its own by name."""
+    topic, _, source = name.path.partition("/")
+    if source in SOURCES:
+        return ""
+    heard = {
+        one.topic
+        for one in endpoints(session)
+        if (one.robot, one.kind, one.node) == (name.robot, "sub", "actuator")
+    }
+    known = sorted(path.partition("/")[2] for path in heard if path.startswith(f"{topic}/"))
+    if not source or not known or source in known:
+        return ""
+    return (
+        f"robot {name.robot} has no source {source!r}; {nearest(source, known)}; "
+        f"[drive.sources.{source}] in its config.toml adds one"
+    )
+
+
+def here(session: Session, wanted: str | None) -> str:
+    """Return which robots have an actuator that is heard, where the one that is wanted has none."""
+    return who_is_here(robots(session), wanted or "", session.unreached())
+
+
+def who_is_here(there: Iterable[str], wanted: str = "", unreached: Sequence[str] = ()) -> str:
+    """Return which robots could have been meant, where the one that is wanted is not heard."""
+    from difflib import get_close_matches
+
+    found = sorted(set(there))
+    if not found and unreached:
+        return f"nothing answers at {', '.join(unreached)}: is the address right, and the robot on?"
+    if not found:
+        return "no actuator is heard here"
+    near = get_close_matches(wanted, found, 1)
+    return f"heard here: {', '.join(found)}" + (f"; did you mean {near[0]}?" if near else "")

@@ -5,9 +5,10 @@ from contextlib import closing
 
 from zteleop.bus import networks, presence, times
 from zteleop.bus.lane import trial
+from zteleop.bus.presence import who_is_here
 from zteleop.bus.session import open_session
 from zteleop.bus.settings import PORT
-from zteleop.cli._company import by_topic, disagreements, who_is_here
+from zteleop.cli._company import by_topic, disagreements
 from zteleop.cli._patient import Finding, Patient
 from zteleop.errors import ZteleopError
 

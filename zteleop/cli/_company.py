@@ -1,12 +1,12 @@
 """Who speaks and who hears on the bus, in words for whoever waits for them."""
 
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import combinations
 
 from zteleop.bus import presence
 from zteleop.bus.hearers import told_apart
 from zteleop.bus.names import Name
-from zteleop.bus.presence import Endpoint, Kind, process
-from zteleop.bus.session import Session
+from zteleop.bus.presence import Endpoint, Kind, process, who_is_here
 from zteleop.bus.topics import TOPICS, topic_of
 from zteleop.errors import meant, nearest
 
@@ -42,6 +42,10 @@ def disagreements(members: Iterable[Endpoint]) -> Iterator[str]:
             if (ros_type, digest) != (wanted, its):
                 said, heard = told_apart((ros_type, digest), (wanted, its))
                 yield f"{node} on {where} says {said}; {ear} on {there} hears {heard} alone, and drops it"
+    for one, other in combinations(sorted(speakers), 2):
+        if one[:2] != other[:2] and one[2:] != other[2:]:
+            said, otherwise = told_apart(one[2:], other[2:])
+            yield f"{one[0]} on {one[1]} says {said}; {other[0]} on {other[1]} says {otherwise}"
 
 
 def why_silent(name: Name, endpoints: Iterable[Endpoint], unreached: Sequence[str] = ()) -> str:
@@ -61,24 +65,6 @@ def who_hears(name: Name, endpoints: Iterable[Endpoint], unreached: Sequence[str
     if hearers := members(name, "sub", endpoints):
         return f"{_people(hearers)} {_verb('hear', hearers)} it"
     return f"nobody hears it{_others(name, 'sub', endpoints, unreached)}"
-
-
-def here(session: Session, wanted: str | None) -> str:
-    """Return which robots have an actuator that is heard, where the one that is wanted has none."""
-    return who_is_here(presence.robots(session), wanted or "", session.unreached())
-
-
-def who_is_here(robots: Iterable[str], wanted: str = "", unreached: Sequence[str] = ()) -> str:
-    """Return which robots could have been meant, where the one that is wanted is not heard."""
-    from difflib import get_close_matches
-
-    found = sorted(set(robots))
-    if not found and unreached:
-        return f"nothing answers at {', '.join(unreached)}: is the address right, and the robot on?"
-    if not found:
-        return "no actuator is heard here"
-    near = get_close_matches(wanted, found, 1)
-    return f"heard here: {', '.join(found)}" + (f"; did you mean {near[0]}?" if near else "")
 
 
 def _instead(name: Name, speakers: list[Endpoint], endpoints: list[Endpoint]) -> str:

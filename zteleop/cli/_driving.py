@@ -6,8 +6,7 @@ from typing import Protocol, Self
 from zteleop.bus import clock
 from zteleop.bus.lane.call import Call
 from zteleop.bus.node import Node
-from zteleop.bus.presence import Robots
-from zteleop.cli._company import who_is_here
+from zteleop.bus.presence import Robots, who_is_here
 from zteleop.cli._painter import HEARD_WITHIN, Painter, Shown
 from zteleop.config import Config
 from zteleop.control.report import to_vehicle

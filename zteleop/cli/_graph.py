@@ -79,7 +79,7 @@ class Graph(NamedTuple):
         robots = {one.robot for one in self.endpoints}
         if name.robot not in robots:
             return (
-                f"robot {name.robot} is not heard; {_company.who_is_here(robots, name.robot, self.unreached)}"
+                f"robot {name.robot} is not heard; {presence.who_is_here(robots, name.robot, self.unreached)}"
             )
         if topic_of(name.path).types:
             return "nobody publishes it, or hears it, yet"
@@ -91,9 +91,9 @@ class Graph(NamedTuple):
         """Return what to tell whoever finds nobody, or not the robot he means."""
         robots = {one.robot for one in self.nodes}
         if robot and robots:
-            return f"robot {robot} is not heard; {_company.who_is_here(robots, robot)}"
+            return f"robot {robot} is not heard; {presence.who_is_here(robots, robot)}"
         if self.unreached:
-            return f"nobody is on the bus; {_company.who_is_here((), '', self.unreached)}"
+            return f"nobody is on the bus; {presence.who_is_here((), '', self.unreached)}"
         return "nobody is on the bus; start one with: zteleop demo, or zteleop actuator"
 
     def topics(self) -> dict[str, list[Endpoint]]:

@@ -4,11 +4,10 @@ import sys
 from math import tan
 from typing import TypeVar
 
-from zteleop.bus import clock
+from zteleop.bus import clock, presence
 from zteleop.bus.escape import printable
 from zteleop.bus.node import Node
 from zteleop.bus.publisher import Publisher
-from zteleop.cli import _company
 from zteleop.control import curvature
 from zteleop.control.command import IN_VAIN, asks_in_vain, moves
 from zteleop.control.proof import NEVER
@@ -35,7 +34,7 @@ def await_robot(verb: str, node: Node, publisher: Publisher[M]) -> bool:
         return publisher.matched and heard.beat is not None
 
     if not node.membership.until(answers, TELL_AFTER):
-        here = _company.here(node.membership.session, node.robot)
+        here = presence.here(node.membership.session, node.robot)
         print(printable(f"zteleop {verb}: waits for {node.robot}; {here}"), file=sys.stderr, flush=True)
         if not node.membership.until(answers, HEARD_WITHIN - TELL_AFTER):
             raise BusError(f"robot {node.robot} does not answer; is its actuator on? {here}")

@@ -52,8 +52,13 @@ def _summary(settings: Config) -> str:
     lines.append("sources  " + ", ".join(f"{name} {source.priority}" for name, source in sources))
     lines += _idle_limits(settings)
     for name, ours, theirs in _changes(settings):
-        lines.append(f"set      {name} = {ours}" + (f", built in {theirs}" if theirs is not None else ""))
+        built_in = f", built in {_as_toml(theirs)}" if theirs is not None else ""
+        lines.append(f"set      {name} = {_as_toml(ours)}{built_in}")
     return "\n".join(lines)
+
+
+def _as_toml(value: object) -> object:
+    return str(value).lower() if isinstance(value, bool) else value
 
 
 def _tick_us(settings: Config) -> float:

@@ -29,7 +29,7 @@ def run(arguments: argparse.Namespace) -> None:
     if not endpoints:
         where = settings.robot or "a robot"
         robots = {one.robot for one in everybody}
-        here = _company.who_is_here(robots, settings.robot or "", unreached)
+        here = presence.who_is_here(robots, settings.robot or "", unreached)
         start = "start one with: zteleop demo, or zteleop actuator"
         raise BusError(f"nobody speaks for {where}; {here if robots or unreached else start}")
     if arguments.count_topics:

@@ -5,8 +5,8 @@ from os import environ
 
 from zteleop.bus import clock, codec
 from zteleop.bus.escape import printable
+from zteleop.bus.presence import who_is_here
 from zteleop.cli import _options
-from zteleop.cli._company import who_is_here
 from zteleop.cli._listening import TELL_AFTER, Arrival, listening
 from zteleop.errors import MessageError
 from zteleop.messages import Log

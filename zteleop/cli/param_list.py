@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from zteleop.bus import presence
 from zteleop.bus.escape import printable
 from zteleop.bus.session import open_session
-from zteleop.cli import _company, _options
+from zteleop.cli import _options
 from zteleop.cli._graph import find_node
 from zteleop.cli._params import NodeParameters
 from zteleop.errors import BusError
@@ -55,6 +55,6 @@ def _tell_of_one(found: NodeParameters) -> int:
 
 
 def _who_is_missing(robots: set[str], robot: str | None, unreached: Sequence[str]) -> str:
-    here = _company.who_is_here(robots, robot or "", unreached)
+    here = presence.who_is_here(robots, robot or "", unreached)
     start = "start one with: zteleop demo, or zteleop actuator"
     return f"no node with parameters is heard; {here if robots or unreached else start}"

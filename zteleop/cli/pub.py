@@ -23,7 +23,7 @@ from zteleop.cli._types import find_type
 from zteleop.control.command import steers_only, to_command
 from zteleop.control.resume import Resume
 from zteleop.control.settings import SOURCES
-from zteleop.errors import BusError, ConfigError, MessageError, nearest
+from zteleop.errors import BusError, ConfigError, MessageError
 from zteleop.messages import DriveStatus, Message
 from zteleop.text.documents import Documents
 
@@ -90,8 +90,8 @@ def run(arguments: argparse.Namespace) -> None:
             if command
             else _await_hearer(node, publisher, name, wanted, HEARD_WITHIN if asked is None else FAR)
         )
-        if command:
-            _check_source(node, name)
+        if command and (words := presence.unknown_source(node.membership.session, name)):
+            raise BusError(words)
         if not heard and times is None:
             print("zteleop pub: waits no longer, and says it all the same", file=sys.stderr)
         if arguments.stdin:
@@ -204,19 +204,6 @@ def _is_command(topic: str, robot: str | None) -> bool:
     with suppress(ConfigError):
         return topic_of(resolve(topic, robot).path).command
     return topic_of(topic).command  # of whichever robot there is
-
-
-def _check_source(node: Node, name: Name) -> None:
-    """Raise BusError for a source that the robot does not know: it hears each of its own by name."""
-    topic, _, source = name.path.partition("/")
-    ends = presence.endpoints(node.membership.session)
-    heard = {one.topic for one in ends if (one.robot, one.kind, one.node) == (name.robot, "sub", "actuator")}
-    known = sorted(path.partition("/")[2] for path in heard if path.startswith(f"{topic}/"))
-    if source and known and source not in known:
-        raise BusError(
-            f"robot {name.robot} has no source {source!r}; {nearest(source, known)}; "
-            f"[drive.sources.{source}] in its config.toml adds one"
-        )
 
 
 def _await_hearer(node: Node, publisher: Publisher[M], name: Name, wanted: int, patience: float) -> bool:

@@ -6,7 +6,7 @@ from zteleop import config
 from zteleop.bus import clock, presence
 from zteleop.bus.node import Node
 from zteleop.bus.session import Session, open_session
-from zteleop.cli import _company, _options
+from zteleop.cli import _options
 from zteleop.config import Config
 from zteleop.errors import DeviceError
 from zteleop.messages import Odometry
@@ -88,6 +88,6 @@ class Attendant:
         elif was:
             self._node.log.warn(f"the actuator of {robot} is not heard any more; its chip stays as it is")
         else:
-            here = _company.here(self._node.membership.session, robot)
+            here = presence.here(self._node.membership.session, robot)
             start = f"start zteleop actuator --robot {robot}"
             self._node.log.warn(f"waits for pulses: no actuator of {robot} is heard ({here}); {start}")

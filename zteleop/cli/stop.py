@@ -7,7 +7,7 @@ from zteleop.bus import clock, presence
 from zteleop.bus.escape import printable
 from zteleop.bus.lane.call import Call
 from zteleop.bus.node import Node
-from zteleop.cli import _company, _options
+from zteleop.cli import _options
 from zteleop.config import Config
 from zteleop.errors import BusError
 from zteleop.messages import DriveStatus
@@ -124,7 +124,7 @@ class Stops:
         """Say which robots there are, where one that does not answer is not among them."""
         session = node.membership.session
         for robot in self._asked.keys() - self._told - set(presence.robots(session)):
-            words = f"{robot} does not answer so far, and is asked on; {_company.here(session, robot)}"
+            words = f"{robot} does not answer so far, and is asked on; {presence.here(session, robot)}"
             print(printable(words), file=sys.stderr, flush=True)
 
     def heed(self) -> bool:
@@ -160,14 +160,14 @@ def release(node: Node, robot: str, everybodys: bool = False) -> str:
     stopping = Stopping(node, person(), robot)
     status = node.membership.until(statuses.newest, TELL_AFTER)
     if status is None:
-        here = _company.here(node.membership.session, robot)
+        here = presence.here(node.membership.session, robot)
         print(printable(f"zteleop stop: waits for {robot}; {here}"), file=sys.stderr, flush=True)
         status = node.membership.until(statuses.newest, ACKNOWLEDGED_WITHIN - TELL_AFTER)
     stopping.release(status, clock.now(), everybodys)
     _listen(node, stopping)
     node.membership.until(lambda: stopping.heed(None, clock.now()), 2 * ACKNOWLEDGED_WITHIN)
     if stopping.state != "done":
-        here = _company.here(node.membership.session, robot) if stopping.unheard else ""
+        here = presence.here(node.membership.session, robot) if stopping.unheard else ""
         raise BusError(f"{stopping.words}; {here}" if here else stopping.words)
     return stopping.words
 

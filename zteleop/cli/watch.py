@@ -5,7 +5,7 @@ from collections import deque
 from collections.abc import Iterable
 from contextlib import suppress
 
-from zteleop.bus import clock
+from zteleop.bus import clock, presence
 from zteleop.bus.escape import printable
 from zteleop.bus.names import resolve
 from zteleop.bus.presence import Endpoint
@@ -102,7 +102,7 @@ class Watched:
         if not self._topics:
             where = self._robot or "a robot"
             unreached = self._ears.unreached()
-            here = _company.who_is_here(self._others, self._robot or "", unreached)
+            here = presence.who_is_here(self._others, self._robot or "", unreached)
             start = "start one with: zteleop demo, or zteleop actuator"
             return [f"nobody speaks for {where}; {here if self._others or unreached else start}"]
         rows = [HEAD, *(self._row(topic, members, now) for topic, members in self._topics.items())]

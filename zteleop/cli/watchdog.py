@@ -1,10 +1,10 @@
 import argparse
 import sys
 
-from zteleop.bus import clock
+from zteleop.bus import clock, presence
 from zteleop.bus.escape import printable
 from zteleop.bus.subscription import Received
-from zteleop.cli import _company, _options
+from zteleop.cli import _options
 from zteleop.cli.why import state_of
 from zteleop.errors import BusError
 from zteleop.messages import WatchdogStatus
@@ -42,7 +42,7 @@ def run(arguments: argparse.Namespace) -> None:
         @node.every(HEARD_WITHIN / 4)
         def notice_silence() -> None:
             if clock.now() - heard_at > HEARD_WITHIN:
-                here = _company.here(node.membership.session, node.robot)
+                here = presence.here(node.membership.session, node.robot)
                 raise BusError(
                     f"no watchdog of {node.robot} has been heard for {HEARD_WITHIN:g} s ({here}); "
                     "if the robot moves, cut its power; else start zteleop actuator"

@@ -7,7 +7,7 @@ from datetime import UTC, datetime
 from zteleop.bus import presence
 from zteleop.bus.escape import printable
 from zteleop.bus.node import Node
-from zteleop.cli import _company, _options
+from zteleop.cli import _options
 from zteleop.errors import BusError
 from zteleop.messages import DriveStatus, WatchdogStatus, Why
 
@@ -50,7 +50,7 @@ def answer(node: Node) -> str:
 
     here = ""
     if not node.membership.until(complete, TELL_AFTER) and status is None and dog is None:
-        here = _company.here(node.membership.session, node.robot)
+        here = presence.here(node.membership.session, node.robot)
         print(printable(f"zteleop why: waits for {node.robot}; {here}"), file=sys.stderr, flush=True)
     node.membership.until(complete, HEARD_WITHIN - TELL_AFTER)
     if status is None and dog is None:

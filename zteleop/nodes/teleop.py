@@ -21,6 +21,7 @@ AT_REST = 4 * PERIOD
 NEUTRALS = 3
 LATE = 0.5
 """s between two looks at the device, after which this process knows that it was stopped itself."""
+LEAVING = "ends when the stop has been said for 3 s, to whoever comes late"
 NEWS = 5.0
 """s that the answer to a stop or a release is shown."""
 SHOW_AFTER = 0.004  # drawing at once would hold up what was just said on its way out
@@ -178,5 +179,7 @@ class Teleop:
         """Return what the robot answers to a stop or a release, for a while; else the latest of the log."""
         log, asking = self._sight.log(now), self._stopping
         pending = asking.state == "pending" or asking.unanswered
+        if self._device.finished and not pending:
+            return LEAVING
         is_news = now - asking.ended < NEWS and not asking.is_over
         return asking.words if pending or is_news else log

@@ -10,6 +10,7 @@ from zteleop.terminal.cells import Span
 CELLS = 8
 """Of each side of a bar whose steps share them; a step of steering has its own."""
 WORDS = {"steering": ("left", "right", "straight"), "throttle": ("forward", "reverse", "neutral")}
+UNKNOWN = "not known"
 COLORS = {"steering": "cyan", "throttle": "green"}
 BLOCKS = ("▕", "█", "█", "░", "│", "▏")
 PLAIN = {"steering": ("[", "<", ">", ".", "O", "]"), "throttle": ("[", "-", "+", ".", "O", "]")}
@@ -65,7 +66,7 @@ def in_steps(d: Dashboard, axis: Axis, room: int) -> Reach:
         ticks = d.seen.pwm.steering_ticks if axis == "steering" else d.seen.pwm.throttle_ticks
     count, most = lever.count(ticks), max(lever.most(1), lever.most(-1), 1)
     cells = max(1, min(most, room, CELLS if axis == "throttle" else most))
-    plus, minus, rest = WORDS[axis]
+    plus, minus, rest = words_of(d, axis)
     put_out = lever.count(out_ticks(d, axis, found.neutral_ticks))
     told = count or put_out  # another one may drive
     words = f"{plus if told > 0 else minus} {abs(told)}/{lever.most(told)}" if told else rest
@@ -78,11 +79,17 @@ def in_parts(d: Dashboard, axis: Axis, room: int) -> Reach:
     """Return an axis that is pushed for as long as a key is held, as a part of what the robot can."""
     cells = min(CELLS, room)
     asked, out = asked_part(d, axis), out_part(d, axis)
-    plus, minus, rest = WORDS[axis]
+    plus, minus, rest = words_of(d, axis)
     sign = -1 if axis == "steering" else 1
     told = share(asked, cells) or share(out, cells)
     words = rest if not told else plus if told > 0 else minus
     return Reach(sign * share(asked, cells), sign * share(out, cells), cells, words)
+
+
+def words_of(d: Dashboard, axis: Axis) -> tuple[str, str, str]:
+    """Return what the sides of an axis and its rest are called; nobody knows of rest where nobody tells."""
+    plus, minus, rest = WORDS[axis]
+    return plus, minus, rest if d.status else UNKNOWN
 
 
 def asked_part(d: Dashboard, axis: Axis) -> float:

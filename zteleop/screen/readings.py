@@ -4,7 +4,7 @@ from zteleop.control.hold import HOLDS, PAUSE
 from zteleop.screen.bars import bar_lines
 from zteleop.screen.dashboard import WIDE, Dashboard, Line, labelled, line
 from zteleop.screen.heading import heading, state
-from zteleop.screen.values import asked_line, out_text, output_line, speeds_line, twist_text, value_lines
+from zteleop.screen.values import asked_text, out_text, output_line, speeds_line, twist_text, value_lines
 from zteleop.terminal.cells import Span, printable, wrap
 
 
@@ -61,8 +61,8 @@ def brief(d: Dashboard, unicode: bool) -> list[Span]:
         return [*state(d, unicode), note]
     applied = d.seen.status.applied if d.seen.status else None
     out = out_text(d, 20, unicode) if d.drive == "step" else twist_text(applied, 20)
-    asked = [Span(f"  {span.text}", span.style) for span in asked_line(d, 20).spans[1:]] if d.asks else []
-    return [*state(d, unicode), Span(f"  {out}"), *(asked if not d.obeyed else []), note]
+    in_vain = [Span(f"  asked {asked_text(d, 20)}, not obeyed", "dim")] if d.asks and not d.obeyed else []
+    return [*state(d, unicode), Span(f"  {out}"), *in_vain, note]
 
 
 def idle(d: Dashboard, columns: int) -> Line:

@@ -1,11 +1,10 @@
 """What an operator sees, as lines for a terminal of any size."""
 
-from collections.abc import Iterable, Sequence
 from math import isfinite
 
 from zteleop.screen.dashboard import Dashboard, Line
 from zteleop.screen.footer import footer
-from zteleop.screen.readings import brief, readings
+from zteleop.screen.readings import brief, help_lines, readings
 from zteleop.screen.top_view import draw
 from zteleop.terminal.cells import Span, fit, pad, paint, width
 
@@ -22,16 +21,26 @@ LEAST_COLUMNS, LEAST_ROWS = 16, 6
 def render(dashboard: Dashboard, columns: int, rows: int, *, unicode: bool, color: bool) -> list[str]:
     """Return at most `rows` lines, each at most `columns` cells wide."""
     if rows == 1:
-        return [paint(fit(brief(dashboard, unicode), columns), color)]
+        return [paint(cut(brief(dashboard, unicode), columns, unicode), color)]
     whole = readings(dashboard, columns, unicode)
     body, bottom = choose(whole, footer(dashboard, columns, unicode), rows)
-    if dashboard.keys and (more := told(line.spans for line in whole) - told(body)):
-        body[-1:] = [[Span(f"and {more + 1} more: make the window larger", "dim")]]
+    page = [line.spans for line in help_lines(dashboard, columns)] if dashboard.keys else []
+    if body and any(spans not in body for spans in page):
+        body[-1] = []  # the last of them gives its place to the word of how many there are
+        hidden = sum(spans not in body for spans in page)
+        body[-1] = [Span(f"and {hidden} more: make the window larger", "dim")]
     spare = rows - len(body) - len(bottom)
     middle = [*body, *[[Span("")]] * spare]
     if not dashboard.keys and (dashboard.seen.odom is not None or dashboard.seen.status is not None):
         middle = with_picture(dashboard, middle, len(body), columns, unicode)
-    return [paint(fit(spans, columns), color) for spans in [*middle, *bottom]]
+    return [paint(cut(spans, columns, unicode), color) for spans in [*middle, *bottom]]
+
+
+def cut(spans: list[Span], columns: int, unicode: bool) -> list[Span]:
+    """Return as much of a line as fits, with a sign at its end where that is not all."""
+    if width("".join(span.text for span in spans).rstrip()) <= columns:
+        return fit(spans, columns)
+    return [*fit(spans, columns - 1), Span("…" if unicode else "~", "dim")]
 
 
 def choose(body: list[Line], bottom: list[Line], rows: int) -> tuple[list[list[Span]], list[list[Span]]]:
@@ -43,11 +52,6 @@ def choose(body: list[Line], bottom: list[Line], rows: int) -> tuple[list[list[S
         [spans for index, spans in chosen if index < len(body)],
         [spans for index, spans in chosen if index >= len(body)],
     )
-
-
-def told(lines: Iterable[Sequence[Span]]) -> int:
-    """Return how many lines say something."""
-    return sum(any(span.text.strip() for span in spans) for spans in lines)
 
 
 def with_picture(

@@ -27,6 +27,8 @@ class PipedTerminal:
 
     def __exit__(self, *exc: object) -> None:
         os.set_blocking(self._fd, True)
+        if self._line and exc[0] is None:
+            self.draw(["ended: the last word is neutral"])
 
     def fileno(self) -> int:
         """Return what turns readable when a key has come, or the last of them."""

@@ -16,6 +16,7 @@ from zteleop.messages import (
     Beat,
     Header,
     Message,
+    Pwm,
     Refusals,
     Refused,
     Twist,
@@ -200,6 +201,20 @@ def test_a_program_that_turns_a_car_on_the_spot_is_told_once(
         "a car turns only while it drives; give linear.x as well as angular.z"
     )
     assert sender.news == [expected] * told
+
+
+def test_ticks_beyond_the_ends_of_a_servo_are_told_with_what_is_obeyed(sender: Sender) -> None:
+    sender.advise(Pwm(1500, 1600), True)
+    assert sender.news == [], "nobody knows yet what it drives"
+    sender.heard.vehicle = to_vehicle(DriveSettings(), 4.08)
+    for inside in (Pwm(375, 400), Pwm(330, 490)):
+        sender.advise(inside, True)
+    assert sender.news == []
+    sender.advise(Pwm(1500, 400), True)
+    (line,) = sender.news
+    assert (
+        "more than the robot does: steering 1500 ticks is obeyed as 460, its end; a tick is 4.08 us" in line
+    )
 
 
 def test_a_tank_turns_on_the_spot(sender: Sender) -> None:

@@ -58,10 +58,15 @@ def test_the_file_found_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[s
 def test_what_is_not_built_in_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "config.toml").write_text(
         "[bus]\nconnect = ['tcp/pi:7447']\n[drivers.pca9685]\naddress = 0x41\nbus = 1\n[speeds]\nturn = 1.0\n"
+        "[drive.sources.nav]\npriority = 40\n"
     )
     assert run_verb("check", "check", []) == 0
     assert [line for line in capsys.readouterr().out.splitlines() if line.startswith("set ")] == [
         "set      bus.connect[0] = tcp/pi:7447",
+        "set      drive.sources.nav.priority = 40",
+        "set      drive.sources.nav.resume = false",
+        "set      drive.sources.nav.silence = 0.3",
+        "set      drive.sources.nav.trust = proof",
         "set      drivers.pca9685.address = 65, built in 64",
     ]
 

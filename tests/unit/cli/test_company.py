@@ -2,15 +2,13 @@ import pytest
 from unit.bus.fakes import Session
 
 from zteleop.bus.names import Name, resolve
-from zteleop.bus.presence import Endpoint, Kind, process
+from zteleop.bus.presence import Endpoint, Kind, here, process, who_is_here
 from zteleop.cli._company import (
     by_topic,
     disagreements,
-    here,
     meets,
     members,
     who_hears,
-    who_is_here,
     why_silent,
 )
 
@@ -119,6 +117,12 @@ def test_who_disagree_about_a_type_are_told_by_name(
 ) -> None:
     members = [typed("pub", "nose", *speaker), typed("sub", "ear", *hearer)]
     assert list(disagreements(members)) == told
+
+
+def test_two_who_publish_one_topic_in_two_ways_are_told_where_nobody_hears_it() -> None:
+    members = [typed("pub", "nose", "a/msg/Soil", "11"), typed("pub", "toe", "a/msg/Soil", "22")]
+    assert list(disagreements(members)) == ["nose on pi-7 says a/msg/Soil 11; toe on pi-7 says 22"]
+    assert list(disagreements([*members[:1], typed("pub", "toe", "a/msg/Soil", "11")])) == []
 
 
 def test_a_command_of_two_types_is_no_disagreement() -> None:

@@ -10,7 +10,7 @@ from zteleop.testing import Clock, FakeNode
 
 @pytest.fixture
 def node(clock: Clock, monkeypatch: pytest.MonkeyPatch) -> FakeNode:
-    monkeypatch.setattr(sim._company, "here", lambda session, robot: "no actuator is heard here")
+    monkeypatch.setattr(sim.presence, "here", lambda session, robot: "no actuator is heard here")
     return FakeNode(clock=clock)
 
 

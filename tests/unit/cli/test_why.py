@@ -87,7 +87,7 @@ def test_nobody_there_is_an_error_in_words_that_names_who_is_and_is_told_sooner(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     silent = node()
-    monkeypatch.setattr(why._company.presence, "robots", lambda session: ["zoe"])
+    monkeypatch.setattr(why.presence, "robots", lambda session: ["zoe"])
     words = r"no actuator of archangel is heard within 2 s; is it on\? heard here: zoe"
     with pytest.raises(BusError, match=words):
         answer(silent)
@@ -102,7 +102,7 @@ def test_where_nobody_answers_a_file_says_so_as_well(
     def join(verb: str, settings: Any) -> FakeNode:
         return node()
 
-    monkeypatch.setattr(why._company.presence, "robots", lambda session: ["archangle"])
+    monkeypatch.setattr(why.presence, "robots", lambda session: ["archangle"])
     monkeypatch.setattr(why._options, "join", join)
     monkeypatch.setattr(why._options, "load_anyhow", lambda arguments: None)
     monkeypatch.setattr(sys.stdout, "isatty", lambda: is_terminal)

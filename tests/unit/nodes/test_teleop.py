@@ -13,7 +13,7 @@ from zteleop.inputs import Wish
 from zteleop.messages import DriveStatus, Log, Odometry, Pwm, Stop, Twist, Vehicle, WatchdogStatus
 from zteleop.nodes import sight
 from zteleop.nodes.stop_request import ACKNOWLEDGED_WITHIN, REPEAT
-from zteleop.nodes.teleop import AT_REST, NEWS, PERIOD, SHOW_AFTER, Teleop
+from zteleop.nodes.teleop import AT_REST, LEAVING, NEWS, PERIOD, SHOW_AFTER, Teleop
 from zteleop.screen.view import View
 from zteleop.testing import Clock, FakeNode
 
@@ -467,6 +467,7 @@ def test_whoever_stops_and_leaves_is_heard_first(desk: Desk) -> None:
     desk.hear_state("stopped", desk.stops.messages[0].id)
     desk.tick(round((REPEAT - 0.5) / PERIOD))
     assert not desk.node.stopped
+    assert desk.views[-1].note == LEAVING, "what the screen still stands for"
     desk.tick(round(0.5 / PERIOD))
     assert desk.node.stopped
 

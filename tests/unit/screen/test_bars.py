@@ -62,6 +62,12 @@ def test_without_a_pulse_nothing_is_put_out(car, said):
     assert texts(bar_lines(board, 80, False))[0] == "steering  [      O...   ]  right 3/6"
 
 
+@pytest.mark.parametrize("drive", ["step", "hold"])
+def test_where_nobody_tells_what_the_chip_does_it_is_not_known(car, drive):
+    lines = texts(bar_lines(dashboard(drive, car, status=None), 80, False))
+    assert all(line.endswith("not known") for line in lines)
+
+
 def test_right_is_right_whichever_number_is_larger(car):
     channel = car.channels[0]
     channel.min_ticks, channel.max_ticks = channel.max_ticks, channel.min_ticks

@@ -38,7 +38,8 @@ def test_a_place_that_is_told_no_more_is_said_to_be(car):
 
 def test_on_a_single_line_what_is_asked_shows_only_while_nobody_obeys(car):
     said = status(pulses=pulses(car, {"throttle": 371}))
-    for ours, shown in ((True, "● driving  [375, 371]  "), (False, "● driving  [375, 371]  [375, 380] no  ")):
+    asked = "asked [375, 380], not obeyed  "
+    for ours, shown in ((True, "● driving  [375, 371]  "), (False, f"● driving  [375, 371]  {asked}")):
         board = dashboard("step", car, command=Pwm(375, 380), status=said, ours=ours)
         assert text(brief(board, True)) == shown
     board = dashboard("hold", car, command=Twist.planar(0.3), status=said, ours=True)

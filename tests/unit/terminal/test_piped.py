@@ -23,5 +23,6 @@ def test_keys_come_from_a_pipe_until_it_ends_and_only_news_is_printed(
         os.close(mouth)
         with pytest.raises(EOFError):
             terminal.read()
+    assert capsys.readouterr().out == "ended: the last word is neutral\n"
     assert os.get_blocking(ear)
     os.close(ear)
