@@ -92,6 +92,7 @@ def test_the_graph_is_complete_the_first_time(rig: Rig) -> None:
     nodes = ask(rig, "node list").splitlines()
     assert {"/bench/actuator", "/bench/watchdog", "/bench/blackbox"} <= set(nodes)
     assert ask(rig, "node list --count-nodes") == f"{len(nodes)}\n"
+    assert "    whatever is said on /bench" in ask(rig, "node info blackbox")
     told = ask(rig, "node info actuator")
     assert told.startswith("/bench/actuator\n  Subscribers:\n    /bench/cmd_vel/")
     assert "    /bench/drive_status: zteleop_msgs/msg/DriveStatus\n" in told.partition("  Publishers:\n")[2]

@@ -38,7 +38,7 @@ def test_an_actuator_that_was_told_to_end_and_leaves_slowly_was_not_only_late(ri
         os.kill(bench.watchdog.child, signal.SIGTERM)
         bench.rests()
         bench.watchdog.says("the actuator is gone: it ended")
-        bench.watchdog.says(" is refused: it was moving before the robot started")
+        bench.watchdog.says(" is refused: it was moving before the robot was ready")
         bench.stays_neutral()
 
 

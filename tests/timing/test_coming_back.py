@@ -86,7 +86,7 @@ def test_a_program_drives_on_where_the_watchdog_came_late(rig: Rig, robot: Proce
 def test_one_whose_actuator_crashed_is_started_and_waits(rig: Rig, robot: Process) -> None:
     assert robot.child
     os.kill(robot.child, signal.SIGKILL)
-    robot.says("is refused: it was moving before the robot started")
+    robot.says("is refused: it was moving before the robot was ready")
     for _ in every(0.005, 200):
         assert rig.ticks == NEUTRAL
 
@@ -118,7 +118,7 @@ def test_readmes_program_drives_on_after_a_stall_and_deafness_and_is_told_of_a_r
     assert "let go first" not in robot.text + program.text
     assert robot.child
     os.kill(robot.child, signal.SIGKILL)
-    program.says(f"cmd_vel is refused by robot {rig.robot}: it was moving before the robot started")
+    program.says(f"cmd_vel is refused by robot {rig.robot}: it was moving before the robot was ready")
     for _ in every(0.005, 200):
         assert rig.ticks == NEUTRAL
 

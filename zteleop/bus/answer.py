@@ -24,6 +24,7 @@ LET_GO = "let go of everything, and begin anew when it is free"
 ADVICE: dict[str, str] = {
     Refusal.EARLIER_START: ANEW,
     Refusal.NOT_FROM_NEUTRAL: ANEW,
+    Refusal.LAPSED: ANEW,
     Refusal.BEFORE_RELEASE: ANEW,
     Refusal.BEFORE_REPAIR: ANEW,
     Refusal.AT_REST: ANEW,

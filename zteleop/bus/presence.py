@@ -25,6 +25,8 @@ from zteleop.messages import MESSAGES, Message
 Kind = Literal["pub", "sub"]
 ANY = "any"
 """the type of who hears all"""
+RECORDER = "blackbox"
+"""the node that hears whatever is said of its robot, and is nobody to whom it is said"""
 DEPARTURES = 100
 PUBLICATIONS = 1000
 ROBOTS = 1000

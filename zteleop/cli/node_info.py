@@ -2,7 +2,7 @@ import argparse
 from collections.abc import Iterable
 
 from zteleop.bus.escape import printable
-from zteleop.bus.presence import Endpoint
+from zteleop.bus.presence import RECORDER, Endpoint
 from zteleop.cli import _options
 from zteleop.cli._graph import Graph, find_node, graph
 
@@ -33,6 +33,8 @@ def lines(robot: str, node: str, found: Graph) -> Iterable[str]:
         known = [*found.endpoints, *found.all_services]
         members = {one for one in known if (one.robot, one.node, one.kind) == (robot, node, kind)}
         yield from sorted({_line(one) for one in members})
+        if (node, kind) == (RECORDER, "sub"):
+            yield f"    whatever is said on /{robot}, and counts nowhere as one who hears it"
     yield "  Processes:"
     yield from sorted(f"    {one.process}" for one in found.nodes if (one.robot, one.node) == (robot, node))
 

@@ -231,7 +231,7 @@ def _hears(node: Node, publisher: Publisher[M], name: Name, wanted: int = 1) -> 
     # In this order: a black box may come between two questions, and must not be taken for somebody else.
     if not publisher.matched:
         return False
-    return bool(known) or not presence.holders(node.membership.session, name.robot, "blackbox")
+    return bool(known) or not presence.holders(node.membership.session, name.robot, presence.RECORDER)
 
 
 def _hearers(node: Node, name: Name) -> list[Endpoint]:

@@ -251,7 +251,8 @@ class Admission:
         self, source: str, command: Twist | Pwm, proof: Proof | None, moving: bool, now: float
     ) -> Refusal | None:
         refusal = self.gate.judge(proof, moving, now, self.silences.of(source))
-        if refusal is Refusal.NOT_FROM_NEUTRAL and self.holds and not self.holds.pass_by_themselves:
+        is_over = refusal in (Refusal.NOT_FROM_NEUTRAL, Refusal.LAPSED)
+        if is_over and self.holds and not self.holds.pass_by_themselves:
             refusal = Refusal.AT_REST  # whose claim has lapsed meanwhile is not told of a lost link
         if refusal or proof is None:
             if proof and refusal in LACKS_AN_ACT and not self.holds:

@@ -23,9 +23,8 @@ class Refusal(StrEnum):
     REPLAYED = "it repeats an older command"
     STALE = "it is too old, or its sender no longer hears the robot"
     OPERATOR_IDLE = "its operator has not acted for too long"
-    NOT_FROM_NEUTRAL = (
-        f"it was moving before the robot started, or before it was silent or cut off for a while; {ANEW}"
-    )
+    NOT_FROM_NEUTRAL = f"it was moving before the robot was ready; {ANEW}"
+    LAPSED = f"it was moving before it was silent, or cut off, for too long; {ANEW}"
     BEFORE_RELEASE = f"it was moving before the stop was released; {ANEW}"
     BEFORE_REPAIR = f"it was moving before the chip's fault was over; {ANEW}"
     INTERRUPTED = "it was said before an interruption ended; act once more"
@@ -38,6 +37,7 @@ class Refusal(StrEnum):
 BEGUN_BEFORE = (
     Refusal.EARLIER_START,
     Refusal.NOT_FROM_NEUTRAL,
+    Refusal.LAPSED,
     Refusal.BEFORE_RELEASE,
     Refusal.BEFORE_REPAIR,
 )
@@ -149,7 +149,7 @@ class Gate:
         if not moving:
             return None
         if not self._may_begin(proof, seen):  # first: a claim that is over lacks more than an act
-            return self._over if proof.began <= self._floor else Refusal.NOT_FROM_NEUTRAL
+            return self._over if proof.began <= self._floor else Refusal.LAPSED
         if not 0 <= now - proof.acted <= self.operator_silence:
             return Refusal.OPERATOR_IDLE
         resumed = max(self._resumed, seen.resumed)

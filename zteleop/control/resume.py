@@ -4,7 +4,7 @@ from zteleop.control.gate import Refusal
 from zteleop.control.proof import NEVER
 from zteleop.messages import DriveStatus, Refusals
 
-NOT_BEGUN = (Refusal.EARLIER_START, Refusal.NOT_FROM_NEUTRAL, Refusal.BEFORE_REPAIR)
+NOT_BEGUN = (Refusal.EARLIER_START, Refusal.NOT_FROM_NEUTRAL, Refusal.LAPSED, Refusal.BEFORE_REPAIR)
 """What a claim is refused for that has only to begin anew."""
 AT_MOST_EVERY = 1.0
 """s between two beginnings, in which the robot's answer to the first arrives"""

@@ -16,6 +16,10 @@ DEPTH = 500
 """Commands kept of each source for one tick; a flood beyond it loses the oldest."""
 
 
+MANY = 50
+"""commands between two looks"""
+
+
 class Overhearing:
     """Tells the judge what is said, in the watchdog's own time: nothing here wakes it."""
 
@@ -35,9 +39,12 @@ class Overhearing:
         """When a stop was heard that the actuator must keep, by its id."""
         self._beat_at = float("-inf")
         self.commands = 0
+        self.floods = False
+        """More came since the look before than people and programs say: the next must come soon."""
 
     def listen(self, now: float) -> Stop | None:
         """Take in what was said; return a stop that the actuator should have kept by now, and has not."""
+        before = self.commands
         for inbox in self._commands:
             for received in inbox.take():
                 self.commands += 1
@@ -46,6 +53,7 @@ class Overhearing:
                 except MessageError:
                     continue  # the actuator says so
                 self._judge.receive(received.source, command, received.proof, received.at)
+        self.floods = self.commands - before > MANY
         return self._listen_for_stops(now)
 
     def hears(self, epoch: int | None, now: float) -> bool:

@@ -136,7 +136,8 @@ class Watchdog:
             self._keep_at_rest(now)
         elif self._patience.is_over(silence, self._hand.took, self._child.ready, now):
             self._fell(self._patience.lose(silence, self._child.ready), 0.0, late=True)
-        return STEP_EVERY if self._judge.moving or self._state != "watching" else STEADY_EVERY
+        is_busy = self._judge.moving or self._ears.floods or self._state != "watching"
+        return STEP_EVERY if is_busy else STEADY_EVERY
 
     def _beat(self) -> None:
         report = self._child.newest

@@ -10,6 +10,7 @@ import msgspec
 
 from zteleop import config
 from zteleop.bus.node import Node
+from zteleop.bus.presence import RECORDER
 from zteleop.bus.session import open_session
 from zteleop.bus.tap import Tap
 from zteleop.bus.topics import TOPICS
@@ -36,7 +37,7 @@ def run() -> int:
     signal.pthread_sigmask(signal.SIG_BLOCK, signals.ENDING)
     session = open_session(settings.bus)
     tap = Tap(session, robot, known)
-    with Node("blackbox", robot, session=session) as node:
+    with Node(RECORDER, robot, session=session) as node:
         for number in signals.ENDING:
             signal.signal(number, lambda *_: node.stop())
         signal.pthread_sigmask(signal.SIG_UNBLOCK, signals.ENDING)

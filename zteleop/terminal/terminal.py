@@ -17,7 +17,8 @@ from zteleop.terminal.frames import changes, one_line
 from zteleop.terminal.releases import OFF
 
 ENTER = "\x1b[?1049h\x1b[?25l\x1b[?2004h"
-LEAVE = "\x1b[?2026l\x1b[?2004l\x1b[0m\x1b[?25h\x1b[?1049l"
+LEAVE = "\x1b[?2026l\x1b[?2004l\x1b[0m\x1b[?25h\x1b[H\x1b[J\x1b[?1049l"
+"""Left empty, with the cursor at the top: tmux would keep rows of it, where the window was resized, else."""
 DRAINED_WITHIN = 0.5
 """s that leaving waits for a terminal that takes nothing in."""
 FALLBACK_SIZE = (80, 24)

@@ -57,8 +57,8 @@ def test_what_began_before_the_start_is_refused(gate: Gate) -> None:
 def test_a_short_loss_resumes_and_a_long_one_needs_a_new_act_from_neutral(gate: Gate) -> None:
     assert gate.judge(proof(101.0, seq=1), True, 101.0) is None
     assert gate.judge(proof(102.9, seq=2, began=101.0), True, 102.9) is None
-    assert gate.judge(proof(105.0, seq=3, began=101.0), True, 105.0) is Refusal.NOT_FROM_NEUTRAL
-    assert gate.judge(proof(105.1, seq=4, began=101.0), True, 105.1) is Refusal.NOT_FROM_NEUTRAL
+    assert gate.judge(proof(105.0, seq=3, began=101.0), True, 105.0) is Refusal.LAPSED
+    assert gate.judge(proof(105.1, seq=4, began=101.0), True, 105.1) is Refusal.LAPSED
     assert gate.judge(proof(105.2, seq=5, began=105.2), True, 105.2) is None
 
 
@@ -70,16 +70,16 @@ def test_letting_go_before_a_silence_is_no_loss(gate: Gate) -> None:
 def test_a_claim_that_was_not_heard_for_long_needs_a_new_act_from_neutral(gate: Gate) -> None:
     """It was pressed when the link was already lost, and is held when the link comes back."""
     assert gate.judge(proof(101.0, seq=1), False, 101.0) is None
-    assert gate.judge(proof(103.9, seq=2, began=101.5), True, 103.9) is Refusal.NOT_FROM_NEUTRAL
-    assert gate.judge(proof(104.0, seq=3, began=101.5), True, 104.0) is Refusal.NOT_FROM_NEUTRAL
+    assert gate.judge(proof(103.9, seq=2, began=101.5), True, 103.9) is Refusal.LAPSED
+    assert gate.judge(proof(104.0, seq=3, began=101.5), True, 104.0) is Refusal.LAPSED
     assert gate.judge(proof(104.1, seq=4, began=104.1), True, 104.1) is None
-    assert gate.judge(proof(104.0, sender=2, began=101.5), True, 104.0) is Refusal.NOT_FROM_NEUTRAL
+    assert gate.judge(proof(104.0, sender=2, began=101.5), True, 104.0) is Refusal.LAPSED
     assert gate.judge(proof(104.0, sender=3, began=102.5), True, 104.0) is None
 
 
 def test_of_a_lost_link_the_first_two_seconds_are_no_beginning(gate: Gate) -> None:
     assert gate.judge(proof(101.0, seq=1), True, 101.0) is None
-    assert gate.judge(proof(104.0, seq=2, began=102.9), True, 104.0) is Refusal.NOT_FROM_NEUTRAL
+    assert gate.judge(proof(104.0, seq=2, began=102.9), True, 104.0) is Refusal.LAPSED
     assert gate.judge(proof(104.1, seq=3, began=103.1), True, 104.1) is None
 
 
@@ -104,7 +104,7 @@ def test_a_second_opinion_is_never_the_stricter_one() -> None:
     assert gate.judge(proof(101.1, seq=2, began=100.8), True, 101.1) is None
     assert gate.judge(proof(103.3, seq=3, began=100.8), True, 103.3) is None
     assert gate.judge(proof(105.6, seq=4, began=103.4), True, 105.6) is None
-    assert gate.judge(proof(108.0, seq=5, began=103.4), True, 108.0) is Refusal.NOT_FROM_NEUTRAL
+    assert gate.judge(proof(108.0, seq=5, began=103.4), True, 108.0) is Refusal.LAPSED
 
 
 def test_a_restart_refuses_all_that_was_before(gate: Gate) -> None:
@@ -118,9 +118,9 @@ def test_a_restart_refuses_all_that_was_before(gate: Gate) -> None:
 def test_nonsense_times_are_refused(gate: Gate) -> None:
     nan = float("nan")
     assert gate.judge(proof(101.0, beat=nan), True, 101.0) is Refusal.STALE
-    assert gate.judge(proof(101.0, acted=nan), True, 101.0) is Refusal.NOT_FROM_NEUTRAL
-    assert gate.judge(proof(101.0, seq=2, began=nan), True, 101.0) is Refusal.NOT_FROM_NEUTRAL
-    assert gate.judge(proof(101.0, seq=3, began=200.0), True, 101.0) is Refusal.NOT_FROM_NEUTRAL
+    assert gate.judge(proof(101.0, acted=nan), True, 101.0) is Refusal.LAPSED
+    assert gate.judge(proof(101.0, seq=2, began=nan), True, 101.0) is Refusal.LAPSED
+    assert gate.judge(proof(101.0, seq=3, began=200.0), True, 101.0) is Refusal.LAPSED
 
 
 def test_memory_is_bounded_and_the_forgotten_must_let_go(gate: Gate) -> None:
@@ -129,7 +129,7 @@ def test_memory_is_bounded_and_the_forgotten_must_let_go(gate: Gate) -> None:
         now = 101.0 + sender / 1000
         assert gate.judge(proof(now, sender=sender), True, now) is None
     assert len(gate._senders) == SENDERS
-    assert gate.judge(proof(101.2, seq=10, began=101.0), True, 101.2) is Refusal.NOT_FROM_NEUTRAL
+    assert gate.judge(proof(101.2, seq=10, began=101.0), True, 101.2) is Refusal.LAPSED
 
 
 def test_whoever_drives_is_not_forgotten_for_strangers_who_never_did(gate: Gate) -> None:

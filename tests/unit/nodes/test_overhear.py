@@ -10,7 +10,7 @@ from zteleop.control.settings import SOURCES, DriveSettings
 from zteleop.control.standing import Standing
 from zteleop.machine.stop_file import UNREADABLE
 from zteleop.messages import Beat, Message, Pwm, Stop, String
-from zteleop.nodes.overhear import Overhearing
+from zteleop.nodes.overhear import MANY, Overhearing
 from zteleop.testing import FakeNode
 
 PERIOD = 0.02
@@ -55,6 +55,18 @@ class Room:
 @pytest.fixture
 def room() -> Room:
     return Room()
+
+
+def test_a_flood_is_noticed_as_long_as_it_lasts(room: Room) -> None:
+    room.push()
+    room.listen()
+    assert not room.ears.floods
+    for _ in range(MANY + 1):
+        room.push()
+    room.listen()
+    assert room.ears.floods
+    room.listen()
+    assert not room.ears.floods
 
 
 def test_it_hears_every_source_by_name_and_the_stops(room: Room) -> None:

@@ -909,6 +909,21 @@ def test_it_looks_often_only_while_the_chip_moves(awake: Kennel) -> None:
     assert looks(awake, 0.2) >= 0.2 / STEP_EVERY - 1
 
 
+def test_it_hears_often_while_somebody_floods(awake: Kennel, monkeypatch: pytest.MonkeyPatch) -> None:
+    ticks, hear = list[float](), awake.child.hear
+
+    def count(now: float) -> None:
+        ticks.append(now)
+        hear(now)
+
+    monkeypatch.setattr(awake.child, "hear", count)
+    for _ in range(20):
+        for _ in range(100):
+            awake.hear("pwm/keyboard", PUSH)
+        awake.live(STEP_EVERY)
+    assert len(ticks) >= 17, "and not every third time alone"
+
+
 def test_an_actuator_whose_end_somebody_else_holds_has_ended(awake: Kennel) -> None:
     awake.child.alive = False  # and its link says nothing of that
     awake.hear_actuator()

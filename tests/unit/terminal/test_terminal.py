@@ -239,3 +239,12 @@ def test_output_s_terminal_serves_when_input_is_a_pipe(tty, monkeypatch, tmp_pat
         monkeypatch.setattr("sys.stdin", file)
         monkeypatch.setattr("sys.stdout", out)
         assert find_terminal() == tty.slave
+
+
+def test_the_screen_is_left_empty_with_the_cursor_at_the_top_before_the_shell_s_is_shown_again():
+    screen = pyte.Screen(20, 5)
+    stream = pyte.Stream(screen)
+    stream.feed(f"{ENTER}a picture\r\n\n\nand more")
+    stream.feed(LEAVE.partition("\x1b[?1049l")[0])
+    assert "".join(screen.display).strip() == ""
+    assert (screen.cursor.x, screen.cursor.y) == (0, 0)

@@ -6,12 +6,12 @@ for what these processes ask. It never waits for them either.
 
 import socket
 import threading
-from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
 from itertools import count
 
 from zteleop.bus import clock
+from zteleop.bus.door.backlog import Backlog
 from zteleop.bus.door.frames import (
     Advertise,
     Answer,
@@ -43,7 +43,7 @@ AT_ONCE, EVERY, EVERY_PROVEN = 500, 0.001, 0.0002
 comes with a proof counts apart, so that nothing without one takes a command's place"""
 WAITING = 2**22
 """bytes that wait for a process that reads nothing; what comes after them is lost"""
-FLUSH_EVERY = 0.02
+FLUSH_EVERY = 0.01
 QUESTIONS_AT_ONCE, QUESTION_EVERY = 20, 0.05
 """of one key, and s until there may be one more; who asks besides is refused here"""
 TOO_MANY = "it is asked too often; ask again later"
@@ -121,8 +121,7 @@ class Guest:
         self._flush_soon = flush_soon
         self._declared: dict[int, Undeclarable] = {}
         self._outlets: dict[int, Outlet] = {}
-        self._waiting: deque[Arrived | Asked] = deque()
-        self._waiting_bytes = 0
+        self._waiting: Backlog[Arrived | Asked] = Backlog(WAITING)
         self._passing = threading.Lock()
         self._questions: dict[int, tuple[float, Question]] = {}
         """which wait for an answer, and since when"""
@@ -147,8 +146,8 @@ class Guest:
         """Pass on what had to wait; True when nothing waits any more."""
         self._wire.flush()
         with self._passing:
-            while self._waiting and self._wire.send(self._waiting[0]):
-                self._waiting_bytes -= len(self._waiting.popleft().payload)
+            while self._waiting and self._wire.send(self._waiting.next):
+                self._waiting.drop()
             return not self._waiting and not self._wire.lags
 
     def forget(self, now: float) -> None:
@@ -226,12 +225,11 @@ class Guest:
             question.answer(replied.payload, replied.encoding)
 
     def _pass(self, arrived: Arrived | Asked) -> None:
+        # Of one key what has a proof waits apart: no flood without one comes before it.
+        kind = (arrived.id, isinstance(arrived, Arrived) and arrived.attachment is not None)
         with self._passing:
-            if not self._waiting and self._send(arrived):
-                return
-            if self._waiting_bytes < WAITING:
-                self._waiting.append(arrived)
-                self._waiting_bytes += len(arrived.payload)
+            if self._waiting.has(kind) or not self._send(arrived):
+                self._waiting.add(kind, arrived, len(arrived.payload))
 
     def _send(self, frame: Answer, keep: bool = False) -> bool:
         """Say a frame as far as the process takes it, the rest soon; False when it takes nothing."""

@@ -3,6 +3,7 @@
 import os
 import socket
 from collections.abc import Callable, Iterator
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -248,6 +249,21 @@ def test_a_flood_without_a_proof_takes_no_commands_place(
         guest.read()
         heard += [sample.payload for sample in taken(ring)]
     assert len(heard) == module.AT_ONCE + 1
+
+
+def test_a_command_waits_for_no_flood_on_any_key_but_for_what_is_in_the_socket(house: House) -> None:
+    guest, keys = house.guest(), [f"robot/a/cmd_vel/{number}" for number in range(10)]
+    rings = [guest.subscribe(key, 10_000) for key in keys]
+    house.settle(guest)
+    for _, key in product(range(module.AT_ONCE), keys):
+        house.zenoh.say(Sample(key, b"bare", ""))
+    house.zenoh.say(Sample(keys[0], b"command", "", b"proof"))
+    guest.read()
+    in_socket = sum(len(taken(ring)) for ring in rings)
+    house.host._flush()
+    guest.read()
+    assert b"command" in [sample.payload for sample in taken(rings[0])]
+    assert in_socket < module.AT_ONCE * len(keys) / 4, "or nothing has waited"
 
 
 def test_who_reads_nothing_holds_up_nobody_and_hears_the_rest_later(house: House) -> None:
