@@ -451,7 +451,7 @@ def test_it_obeys_and_keeps_the_watchdogs_stop(robot: Robot) -> None:
 
 def test_without_a_watchdog_it_ends_in_words(robot: Robot) -> None:
     robot.tick(int(WATCHDOG_SILENCE / STEP_EVERY), watched=False)
-    with pytest.raises(DeviceError, match=r"the watchdog has been silent for 0\.5 s; the robot is at rest"):
+    with pytest.raises(DeviceError, match=r"the watchdog has been silent for 0\.4 s; the robot is at rest"):
         robot.tick(2, watched=False)
 
 
