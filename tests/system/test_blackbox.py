@@ -138,7 +138,7 @@ def test_an_actuator_that_rests_as_nobody_watches_it_is_told_when_it_does(bench:
     bench.file("actuator-ended")
     told = bench.told()
     words = "actuator reports an error: the watchdog has been silent for 0."
-    in_order(told, "driving: ", words, "watchdog resting: the actuator is gone")
+    in_order(told, "driving: ", words, " s; the robot is at rest", "watchdog resting: the actuator is gone")
     assert "pulses at rest" not in told
     assert bench.watchdog.text.count("the watchdog has been silent") == 1
 

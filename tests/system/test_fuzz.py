@@ -53,7 +53,10 @@ ASKS = 0.5
 BIG = [b"x" * 1_000_000, b"[" * 1_000_000, b'{"linear":' * 100_000, b"\xff" * 10_000_000]
 GROWTH = 2 * 2**20
 """bytes that the actuator may keep of an attack"""
-CLOSING = re.compile(r"\nthread 'app-\d' \(\d+\) panicked at \S*/dispatcher/resource\.rs:491:.*", re.DOTALL)
+CLOSING = re.compile(
+    r"\nthread 'app-\d' \(\d+\) panicked at \S*/dispatcher/resource\.rs:491:\d+:"
+    r"\ncalled `Option::unwrap\(\)` on a `None` value(\n(note: run with|stack backtrace:| +\d+:| +at ).*)*"
+)
 """What zenoh 1.10.2 says where a declaration arrives in the very instant in which it closes: its tables are
 emptied between two looks at them (eclipse-zenoh/zenoh#2624). Once in thousands of commands, after the last
 word of one; it has done what it should, and ends as it would have."""

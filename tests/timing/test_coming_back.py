@@ -68,7 +68,10 @@ def test_a_program_drives_on_under_another_actuator_where_the_first_came_late(
     with excusable(0.1, rig), Watch(rig) as watch:
         os.kill(late, signal.SIGSTOP)
         robot.says("the actuator is gone: it was silent for 0.2")
-        robot.says("it stood still for a moment, and its actuator was started again; whoever drove goes on")
+        robot.says(
+            "it stood still for a moment, and its actuator was started again; "
+            "whoever drove goes on with the next act"
+        )
         assert NEUTRAL in watch.seen
         until(lambda: moves(rig), "motion")
         assert robot.child not in (None, late)

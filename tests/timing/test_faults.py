@@ -174,6 +174,6 @@ def test_no_key_of_its_terminal_leaves_the_wheels_turning(tmp_path: Path, key: s
             if key == "\x1c":
                 until(lambda: rig.ticks == NEUTRAL, "neutral")
             else:
-                terminal.shows("Ctrl-Z at the robot pauses nothing")
+                terminal.shows("Ctrl-Z at the robot pauses nothing", "Ctrl-C there ends it")
                 until(lambda: rig.ticks == DRIVEN, "it drives on")
         Deadline(rig).met(lambda: rig.ticks == NEUTRAL, "neutral after silence", SILENCE)

@@ -9,14 +9,14 @@ from zteleop.bus.escape import printable
 from zteleop.bus.node import Node
 from zteleop.bus.subscription import Received
 from zteleop.bus.topics import TOPICS
+from zteleop.cli import _options
 from zteleop.cli._outcome import Outcome, await_robot
 from zteleop.control.motion.course import Course
 from zteleop.control.motion.pose import Pose2D, pose_of
 from zteleop.control.motion.progress import Progress
 from zteleop.control.motion.trail import Trail
-from zteleop.errors import BusError, ConfigError
+from zteleop.errors import BusError
 from zteleop.messages import Odometry, Twist, Vehicle
-from zteleop.text.quantity import Dimension, quantity
 
 PERIOD = TOPICS["cmd_vel"].every
 ANSWERED_WITHIN = 3.0
@@ -42,7 +42,8 @@ class Motion:
         self._trail = Trail()
         self._pose: Pose2D | None = None
         self._seen = clock.now()
-        self._began = self._lost = clock.now()
+        self._began = clock.now()
+        self._lost = clock.now()
         self._why = ""
         node.subscription("odom", Odometry, self._see)
 
@@ -114,8 +115,8 @@ class Motion:
             return self._publisher.refused or ("it does not obey" if waited else "")
         if now - outcome.heard_at > SILENT:
             return f"{robot} says nothing any more"
-        if by_sight and now - self._seen > SILENT:
-            return f"nobody says any more where {robot} is"
+        if now - self._seen > SILENT:
+            return f"nobody says any more where {robot} is" if by_sight else ""
         if self._trail and self._progress.is_stuck(self._trail, now):
             return f"{robot} hardly moves; does something stand before it?"
         return ""
@@ -125,19 +126,12 @@ class Motion:
         self._trail.add(self._pose, self._seen)
 
 
-def measure(dimension: Dimension) -> Callable[[str], float]:
-    """Return what reads a measure as typed, such as 50cm; of more than nothing."""
-
-    def read(text: str) -> float:
-        try:
-            found = quantity(text, dimension)
-        except ConfigError as error:
-            raise argparse.ArgumentTypeError(str(error)) from None
-        if found <= 0:
-            raise argparse.ArgumentTypeError(f"expected more than nothing, found {text.strip()}")
-        return found
-
-    return read
+def add_figure(parser: argparse.ArgumentParser) -> None:
+    """Add how a figure is driven."""
+    parser.add_argument("--right", action="store_true", help="clockwise (default: to the left)")
+    parser.add_argument(
+        "--speed", type=_options.measure("speed"), help="such as 0.2m/s (default: an easy one)"
+    )
 
 
 def announce(node: Node, twist: Twist) -> None:

@@ -3,6 +3,7 @@
 import argparse
 import re
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,7 +17,7 @@ from zteleop.bus.session import Session, open_session
 from zteleop.cli._salvage import salvage
 from zteleop.config import Config
 from zteleop.errors import ConfigError
-from zteleop.text.quantity import quantity
+from zteleop.text.quantity import Dimension, quantity
 
 if TYPE_CHECKING:
     from zteleop.bus.node import Node
@@ -171,15 +172,22 @@ def count(text: str) -> int:
     return int(text)
 
 
-def seconds(text: str) -> float:
-    """Return a time in s, as typed: 2, 500ms; more than nothing."""
-    try:
-        found = quantity(text, "time")
-    except ConfigError as error:
-        raise argparse.ArgumentTypeError(str(error)) from None
-    if found <= 0:
-        raise argparse.ArgumentTypeError(f"expected more than nothing, found {text}")
-    return found
+def measure(dimension: Dimension) -> Callable[[str], float]:
+    """Return what reads a measure as typed, such as 50cm, in SI units; more than nothing."""
+
+    def read(text: str) -> float:
+        try:
+            found = quantity(text, dimension)
+        except ConfigError as error:
+            raise argparse.ArgumentTypeError(str(error)) from None
+        if found <= 0:
+            raise argparse.ArgumentTypeError(f"expected more than nothing, found {text.strip()}")
+        return found
+
+    return read
+
+
+seconds = measure("time")
 
 
 def rate_hz(text: str) -> float:

@@ -82,7 +82,7 @@ class Painter:
             keys=device.help,
         )
         size = terminal.size()
-        said = (dashboard._replace(seen=View(), idle_left=None), *words(view), size)
+        said = (dashboard._replace(seen=View(), idle_left=None), *news(view), size)
         shown = (said, dashboard.idle_left, *visible(view), len(self._trail))
         is_due = said != self._said or view.now >= self._drawn + MOTION_EVERY
         if is_due and shown != self._shown:
@@ -100,7 +100,7 @@ class Painter:
             trail.append((place.x, place.y))
 
 
-def words(view: View) -> tuple[View, object]:
+def news(view: View) -> tuple[View, object]:
     """Return what of a view is no mere motion: what is asked, and what the robot says of it."""
     status = view.status
     said = status and (status.state, status.why, status.operator, status.stops)

@@ -52,12 +52,13 @@ def _summary(settings: Config) -> str:
     lines.append("sources  " + ", ".join(f"{name} {source.priority}" for name, source in sources))
     lines += _idle_limits(settings)
     for name, ours, theirs in _changes(settings):
-        built_in = f", built in {_as_toml(theirs)}" if theirs is not None else ""
-        lines.append(f"set      {name} = {_as_toml(ours)}{built_in}")
+        built_in = f", built in {_shown(theirs)}" if theirs is not None else ""
+        lines.append(f"set      {name} = {_shown(ours)}{built_in}")
     return "\n".join(lines)
 
 
-def _as_toml(value: object) -> object:
+def _shown(value: object) -> object:
+    """Return a value as the file spells it, but for the quotes."""
     return str(value).lower() if isinstance(value, bool) else value
 
 

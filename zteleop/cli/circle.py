@@ -2,7 +2,7 @@ import argparse
 from math import ceil
 
 from zteleop.cli import _options
-from zteleop.cli._motion import Motion, announce, measure
+from zteleop.cli._motion import Motion, add_figure, announce
 from zteleop.control.motion import pace
 from zteleop.control.motion.course import Laps
 from zteleop.control.motion.trail import Trail
@@ -17,10 +17,11 @@ EXAMPLES = (
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add(parser)
-    parser.add_argument("radius", type=measure("length"), help="such as 50cm: the circle is twice as wide")
+    parser.add_argument(
+        "radius", type=_options.measure("length"), help="such as 50cm: the circle is twice as wide"
+    )
     parser.add_argument("--laps", metavar="N", type=laps, default=1.0, help="how often (default: once)")
-    parser.add_argument("--right", action="store_true", help="clockwise (default: to the left)")
-    parser.add_argument("--speed", type=measure("speed"), help="such as 0.2m/s (default: an easy one)")
+    add_figure(parser)
 
 
 def run(arguments: argparse.Namespace) -> None:

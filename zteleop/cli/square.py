@@ -2,7 +2,7 @@ import argparse
 from math import degrees
 
 from zteleop.cli import _options
-from zteleop.cli._motion import Motion, measure
+from zteleop.cli._motion import Motion, add_figure
 from zteleop.control.motion import pace
 from zteleop.control.motion.trail import Trail
 from zteleop.control.motion.way import Way, square
@@ -17,9 +17,8 @@ CORRECTS = 3.0
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add(parser)
-    parser.add_argument("side", type=measure("length"), help="such as 1m")
-    parser.add_argument("--right", action="store_true", help="clockwise (default: to the left)")
-    parser.add_argument("--speed", type=measure("speed"), help="such as 0.2m/s (default: an easy one)")
+    parser.add_argument("side", type=_options.measure("length"), help="such as 1m")
+    add_figure(parser)
 
 
 def run(arguments: argparse.Namespace) -> None:

@@ -19,7 +19,8 @@ from zteleop.messages import Beat, Pwm, State, Stop, Twist
 RECENT = 1.0
 """s for which a refusal is told beside the reason to rest"""
 LACKS_AN_ACT = (Refusal.OPERATOR_IDLE, Refusal.INTERRUPTED)
-BEFORE: dict[State, Refusal] = {"fault": Refusal.BEFORE_REPAIR}  # the end of a hold; of others the start
+BEFORE: dict[State, Refusal] = {"fault": Refusal.BEFORE_REPAIR}
+"""Why whatever began before the end of a hold does not count, where it is not the start."""
 
 
 class Interruption(NamedTuple):

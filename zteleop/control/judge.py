@@ -63,7 +63,7 @@ class Judge:
     def __init__(self, settings: DriveSettings, tick_us: float, now: float) -> None:
         later = _later(settings)
         self._calibration = Calibration(settings.servos, tick_us)
-        self._claims = EveryClaim(Silences({}, 0.0))
+        self._claims: EveryClaim  # which admission asks for
         self._admission = Admission(later, self._calibration, -1, now, self._keep, GRACE)
         self.neutral_us = self._calibration.neutral_us
         self._epoch = -1

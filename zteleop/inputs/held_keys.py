@@ -85,23 +85,20 @@ class Block:
     def __init__(self) -> None:
         self._seen: dict[str, float] = {}
         self._blocked: dict[str, float] = {}
-        """Since when each has been quiet."""
-        self._in_vain = float("-inf")
 
     def passes(self, key: str, now: float) -> bool:
         """Return whether a key may act; one that may not stays blocked for longer."""
         self._seen[key] = now
         since = self._blocked.pop(key, None)
         if since is None or now - since >= FIRST:
-            self._in_vain = float("-inf")
             return True
-        self._blocked[key] = self._in_vain = now
+        self._blocked[key] = now
         return False
 
     def block(self, now: float) -> None:
         """Block every key that may still be down."""
-        self._blocked |= {key: seen for key, seen in self._seen.items() if now - seen < FIRST}
+        self._blocked |= {key: now for key, seen in self._seen.items() if now - seen < FIRST}
 
     def is_felt(self, now: float) -> bool:
         """Say whether a key was pressed just now in vain."""
-        return now - self._in_vain < TOLD_FOR
+        return any(at == self._seen[key] and now - at < TOLD_FOR for key, at in self._blocked.items())

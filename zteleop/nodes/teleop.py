@@ -12,7 +12,7 @@ from zteleop.inputs import Input, Wish
 from zteleop.messages import Header, Pwm, Twist, TwistStamped, Vehicle
 from zteleop.nodes.sight import Sight
 from zteleop.nodes.speed_parameters import offer_speeds
-from zteleop.nodes.stop_request import Stopping, person
+from zteleop.nodes.stop_request import REPEAT, Stopping, person
 from zteleop.screen.view import View
 
 PERIOD = TOPICS["cmd_vel"].every
@@ -21,7 +21,7 @@ AT_REST = 4 * PERIOD
 NEUTRALS = 3
 LATE = 0.5
 """s between two looks at the device, after which this process knows that it was stopped itself."""
-LEAVING = "ends when the stop has been said for 3 s, to whoever comes late"
+LEAVING = f"ends when the stop has been said for {REPEAT:g} s, to whoever comes late"
 NEWS = 5.0
 """s that the answer to a stop or a release is shown."""
 SHOW_AFTER = 0.004  # drawing at once would hold up what was just said on its way out

@@ -1,14 +1,18 @@
 import argparse
 from math import radians
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
 from zteleop.cli import circle, drive, square
-from zteleop.cli._motion import measure, went
+from zteleop.cli._motion import Motion, went
+from zteleop.cli._options import measure
 from zteleop.control.motion.pose import Pose2D
 from zteleop.control.motion.trail import Trail
 from zteleop.errors import ConfigError
 from zteleop.messages import Twist, Vehicle
+from zteleop.testing import FakeNode
 
 
 def trail(*poses: Pose2D) -> Trail:
@@ -88,3 +92,37 @@ def test_what_came_of_it_is_told_in_its_own_measures() -> None:
     assert circle.told(quarter, 0.6).startswith("a radius of 0.50 m, as odometry saw it; 0.60 m were meant")
     assert circle.told(trail(Pose2D(), Pose2D(0.2)), 0.6).startswith("no circle")
     assert square.told(trail(Pose2D(), Pose2D(0.3, 0.4))).startswith("ended 0.50 m from where it began")
+
+
+@pytest.mark.parametrize(
+    ("changes", "by_sight", "words"),
+    [
+        ({}, True, ""),
+        ({"seen": -2.0}, True, "nobody says any more where bench is"),
+        ({"seen": -2.0, "stuck": True}, False, ""),
+        ({"stuck": True}, True, "bench hardly moves; does something stand before it?"),
+        ({"heard": -2.0}, True, "bench says nothing any more"),
+        ({"lost": "link lost: a moment"}, True, ""),
+        ({"lost": "link lost: for long", "since": -2.0}, True, "link lost: for long"),
+        ({"lost": "stopped: by ann", "taken": True}, True, "stopped: by ann"),
+        ({"obeyed": False}, True, ""),
+        ({"obeyed": False, "refused": "it is too old"}, True, "it is too old"),
+        ({"obeyed": False, "began": -5.0}, True, "it does not obey"),
+    ],
+)
+def test_a_course_goes_on_for_as_long_as_it_is_obeyed_seen_and_makes_way(
+    changes: dict[str, Any], by_sight: bool, words: str
+) -> None:
+    now, motion, seen = 100.0, Motion.__new__(Motion), {"obeyed": True, "taken": False} | changes
+    motion._node = FakeNode(robot="bench")  # type: ignore[assignment]
+    motion._outcome = SimpleNamespace(  # type: ignore[assignment]
+        lost=seen.get("lost", ""),
+        is_taken=seen["taken"],
+        obeyed=seen["obeyed"],
+        heard_at=now + seen.get("heard", 0.0),
+    )
+    motion._publisher = SimpleNamespace(refused=seen.get("refused", ""))  # type: ignore[assignment]
+    motion._began, motion._lost = now + seen.get("began", 0.0), now + seen.get("since", 0.0)
+    motion._seen, motion._trail = now + seen.get("seen", 0.0), arc(1.0, 1.0)
+    motion._progress = SimpleNamespace(is_stuck=lambda trail, now: "stuck" in seen)  # type: ignore[assignment]
+    assert motion._hindrance(now, by_sight) == words

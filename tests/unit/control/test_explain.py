@@ -66,6 +66,8 @@ def test_of_ticks_beyond_a_channel_its_end_is_said() -> None:
     assert "steering ends at 460 ticks" in says(robot)["limiter"]
     robot.hold(Pwm(375, 300), 2.0)
     assert "ends at" not in says(robot)["limiter"]
+    robot.hold(Pwm(9999, 370), 2.0)
+    assert "steering ends at 460 ticks" in says(robot)["limiter"], "also while it stands"
 
 
 @pytest.mark.parametrize("command", [Twist.planar(2.0), Pwm(375, 480)])

@@ -44,6 +44,7 @@ comes with a proof counts apart, so that nothing without one takes a command's p
 WAITING = 2**22
 """bytes that wait for a process that reads nothing; what comes after them is lost"""
 FLUSH_EVERY = 0.01
+"""s between two attempts to pass on what waits"""
 QUESTIONS_AT_ONCE, QUESTION_EVERY = 20, 0.05
 """of one key, and s until there may be one more; who asks besides is refused here"""
 TOO_MANY = "it is asked too often; ask again later"
