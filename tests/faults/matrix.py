@@ -24,7 +24,7 @@ from zteleop.chaos.people import press
 from zteleop.chaos.process import actuator_of
 from zteleop.errors import ZteleopError
 
-DEAD, FROZEN = 0.05, 0.5
+DEAD, FROZEN = 0.05, 0.45
 """s until rest after a process is gone, or stands still"""
 AWAY = 2.3
 """s that a frozen process stands still: long enough that whoever drives must begin anew"""

@@ -95,7 +95,7 @@ FAULTS = (
     Fault("actuator: an error in its loop", order("raise MainThread", actuator)),
     Fault("watchdog killed", watchdog(signal.SIGKILL)),
     Fault("watchdog crashes", watchdog(signal.SIGSEGV)),
-    Fault("watchdog frozen", watchdog(signal.SIGSTOP), 0.5),
+    Fault("watchdog frozen", watchdog(signal.SIGSTOP), 0.45),
     Fault("watchdog told to end", watchdog(signal.SIGTERM)),
     Fault("watchdog: an error in its loop", order("raise MainThread", watchdog)),
     Fault("door killed", door(signal.SIGKILL), None, then="drives"),

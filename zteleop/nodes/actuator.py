@@ -6,7 +6,7 @@ from zteleop.bus.node import Node
 from zteleop.bus.subscription import Received
 from zteleop.bus.topics import TOPICS
 from zteleop.control.command import to_command
-from zteleop.control.deadlines import STEADY_EVERY, STEP_EVERY, WATCHDOG_SILENCE
+from zteleop.control.deadlines import STEADY_EVERY, STEP_EVERY
 from zteleop.control.drive import Drive, Step
 from zteleop.control.gate import Refusal
 from zteleop.control.proof import NEVER, called
@@ -14,16 +14,17 @@ from zteleop.control.settings import DriveSettings
 from zteleop.control.standing import NOBODY, Standing, go_on, stand
 from zteleop.control.stop import stopped_by
 from zteleop.drivers import PulseDriver
-from zteleop.errors import DeviceError, MessageError
+from zteleop.errors import MessageError
 from zteleop.machine.health import LOOK_EVERY, Health
 from zteleop.machine.ids import new_id
 from zteleop.machine.limits_file import LimitsFile
-from zteleop.machine.link import UNWATCHED, ActuatorEnd, Report
+from zteleop.machine.link import ActuatorEnd, Report
 from zteleop.machine.stop_file import StopFile
 from zteleop.messages import Message, Stop
 from zteleop.nodes.limit_parameters import LimitParameters
 from zteleop.nodes.output import Output, keeps_settings
 from zteleop.nodes.state_publisher import StatePublisher
+from zteleop.nodes.watched import UnwatchedError, Watched
 from zteleop.recording.journal import Journal
 
 AT_MOST_EVERY = 0.005
@@ -38,12 +39,6 @@ DEAF = "deaf"
 UNHEARD = "the watchdog does not hear this robot on the bus"
 TAKEN_OVER = "it stood still for a moment, and its actuator was started again"
 FORGOT = "the chip has lost its settings, and the ESC perhaps its supply, while no actuator was there"
-
-
-class UnwatchedError(DeviceError):
-    """Nobody watches, so the actuator ends, at rest; a watchdog that was only late starts another."""
-
-    exit_code = UNWATCHED
 
 
 class Actuator:
@@ -82,11 +77,11 @@ class Actuator:
             self._drive.admission.hold(DEAF, "starting", UNHEARD, now)
         for stop in stop_file.load():
             self._drive.admission.stop(stop, NEVER)  # since when, nobody keeps
-        self._watched = clock.now()
-        self._step = self._drive.step(self._watched)
+        self._step = self._drive.step(clock.now())
         self._answered = float("-inf")
         self._soon = node.membership.loop.alarm(self._answer)
         self._silence = node.membership.loop.alarm(self._advance)
+        self._watched = Watched(node.membership.loop, self._notice_pause, clock.now())
         self._clock = self._keep_time(health)
 
     def run(self) -> None:
@@ -195,13 +190,9 @@ class Actuator:
         return True
 
     def _tick(self) -> None:
-        """Step by the clock, which alone hears silence: of commands, and of the watchdog."""
+        """Step by the clock, which alone hears that nobody speaks."""
         now = clock.now()
         self._notice_pause(now)
-        if now - self._watched > WATCHDOG_SILENCE:
-            raise UnwatchedError(
-                f"the watchdog has been silent for {now - self._watched:.1f} s; the robot is at rest"
-            )
         self._output.tend(now)
         self._advance()
 
@@ -244,7 +235,7 @@ class Actuator:
         """
         if not (late := self._drive.admission.late(now)):
             return
-        self._watched = now
+        self._watched.since(now)
         words = f"this process stood still for {late:.2f} s"
         limit = self._drive.settings.deadlines.stand_still
         if late <= limit:
@@ -258,7 +249,8 @@ class Actuator:
 
     def _hear_watchdog(self) -> None:
         words = self._link.read()
-        now = self._watched = clock.now()
+        now = clock.now()
+        self._watched.since(now)
         if words.hears is not None:
             self._output.is_cut = words.cut
         for stop in words.stops:

@@ -22,9 +22,9 @@ from zteleop.nodes.actuator import (
     IN_A_ROW,
     KEEP_EVERY,
     Actuator,
-    UnwatchedError,
 )
 from zteleop.nodes.output import FAILED_STEPS, REPAIR_EVERY
+from zteleop.nodes.watched import UnwatchedError
 from zteleop.testing import Clock, FakeNode, MemoryChip
 
 NEUTRAL = {0: 1509.6, 1: 1530.0}
@@ -149,6 +149,7 @@ class Robot:
             if watched:
                 self.hear(Words(None))
             self.node.loop.run(STEP_EVERY)
+            self.node.loop.ring(self.clock.time)
 
 
 @pytest.fixture
@@ -450,9 +451,23 @@ def test_it_obeys_and_keeps_the_watchdogs_stop(robot: Robot) -> None:
 
 
 def test_without_a_watchdog_it_ends_in_words(robot: Robot) -> None:
-    robot.tick(int(WATCHDOG_SILENCE / STEP_EVERY), watched=False)
+    robot.tick(int(WATCHDOG_SILENCE / STEP_EVERY) - 1, watched=False)
     with pytest.raises(DeviceError, match=r"the watchdog has been silent for 0\.4 s; the robot is at rest"):
         robot.tick(2, watched=False)
+
+
+def test_the_watchdogs_silence_waits_for_no_step(robot: Robot) -> None:
+    robot.tick()
+    last = robot.clock.time
+    assert last + WATCHDOG_SILENCE in [alarm.due for alarm in robot.node.loop.alarms]
+
+
+def test_words_that_came_while_it_stood_still_itself_count(robot: Robot) -> None:
+    robot.tick()
+    robot.clock.pass_by(WATCHDOG_SILENCE + 1.0)
+    robot.node.loop.ring(robot.clock.time)
+    assert "this process stood still" in robot.node.warnings[-1]
+    robot.tick(3)
 
 
 def test_a_watchdog_that_is_gone_ends_it_at_once(robot: Robot) -> None:
@@ -608,7 +623,7 @@ def test_a_few_commands_in_a_row_are_answered_at_once_and_then_share_a_step(robo
     for ticks_ in (395, 400):
         robot.say(Pwm(ticks_, 370))
     assert len(robot.chip.writes) == writes + IN_A_ROW
-    soon, _ = robot.node.loop.alarms
+    soon = robot.node.loop.alarms[0]
     assert soon.due == pytest.approx(robot.clock.time + AT_MOST_EVERY, abs=1e-9)
     robot.clock.time = soon.due
     robot.node.loop.ring(soon.due)
