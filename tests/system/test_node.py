@@ -74,6 +74,15 @@ with node:
     print("listening", flush=True)
     node.spin()
 """
+BEHIND = """
+with node:
+    {hail}:
+        print("heard", note.data, flush=True)
+        time.sleep(0.3)
+
+    print("listening", flush=True)
+    node.spin()
+"""
 WEATHER = """
 with node:
     node.on("weather", String)(print)
@@ -124,6 +133,24 @@ def test_who_is_slow_may_hear_the_newest_alone(rig: Rig, node: Node) -> None:
     say(node, "newest", *(f"number {n}" for n in range(20)), "last")
     slow.says("heard last")
     assert slow.text.count("heard") <= 3, "one may have been on its way"
+
+
+@pytest.mark.parametrize(
+    "hail",
+    [
+        '@node.on("hail", String)\n    def handle(note: String) -> None',
+        'print("listening", flush=True)\n    for note in node.subscription("hail", String)',
+    ],
+    ids=["handler", "loop"],
+)
+def test_who_cannot_follow_what_he_hears_is_told_so(rig: Rig, node: Node, hail: str) -> None:
+    slow = program(rig, BEHIND.replace("{hail}", hail))
+    slow.says("listening")
+    say(node, "hail", *(f"number {n}" for n in range(9)))
+    said = slow.says("robot/bench/hail: messages come faster than this program takes them (")
+    assert said.startswith("program: warning: ")
+    slow.signal(signal.SIGINT)
+    slow.ends()
 
 
 def test_who_waits_for_what_nobody_says_is_told_and_when_it_is_said_and_when_no_more(rig: Rig) -> None:

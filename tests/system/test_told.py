@@ -71,6 +71,12 @@ def test_a_restarted_robot_is_told_of_by_a_shell_and_by_a_program(rig: Rig) -> N
     assert shell.ends() == 130
 
 
+def test_settings_that_are_changed_under_a_robot_are_told(rig: Rig) -> None:
+    actuator = rig.actuator()
+    rig.set('keymap = "wasd"')
+    actuator.says("config.toml has changed; what it says counts once this is started again")
+
+
 def test_a_robot_that_is_gone_and_comes_back_is_told_of(rig: Rig) -> None:
     actuator = rig.actuator()
     shell = rig.join(*DRIVE)

@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 
 from zteleop.bus import clock, codec, presence
 from zteleop.bus.heard import Heard
+from zteleop.bus.lag import Lag
 from zteleop.bus.loop import Loop
 from zteleop.bus.names import Name, resolve
 from zteleop.bus.session import Delivery, Inbox, Outlet, Session
@@ -68,7 +69,8 @@ class Membership:
         ring = self.session.subscribe(name.key, depth or about.depth)
         self.session.declare_token(presence.endpoint_key(name, "sub", self._node, types))
         words = self._complain if complain else _keep_quiet
-        return Subscription(ring, codec.decoders(types), words, self.handling)
+        lag = Lag(lambda said: words(f"{name.key}: {said}")) if (depth or about.depth) > 1 else None
+        return Subscription(ring, codec.decoders(types), words, self.handling, lag)
 
     def deliver(self, inbox: Inbox, handler: Callable[[Any], object]) -> None:
         """Hand what arrives to a handler in the loop."""

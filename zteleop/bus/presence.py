@@ -16,6 +16,7 @@ import socket
 from collections.abc import Iterable, Sequence
 from typing import Literal, NamedTuple
 
+from zteleop.bus.lag import Lag
 from zteleop.bus.names import Name, is_robot
 from zteleop.bus.session import Sample, Session
 from zteleop.control.settings import SOURCES
@@ -65,6 +66,7 @@ class Departures:
 
     def __init__(self, session: Session, robot: str) -> None:
         self.ring = session.watch_tokens(f"robot/{robot}/live/sender/**", DEPARTURES)
+        self.lag = Lag()
 
     def read(self, sample: Sample) -> int | None:
         """Return the sender whose token is gone; None for one that came."""

@@ -69,8 +69,10 @@ class Pump:
         if not self._closed:
             self._sample = self._inbox.ring.try_recv()
             if self._sample is None:
+                self._inbox.lag.is_over()
                 self._go_on()
             else:
+                self._inbox.lag.goes_on()
                 self._loop.call_next(self._hand_over)
 
     def _go_on(self) -> None:

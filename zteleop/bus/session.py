@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple, Protocol, Self
 
+from zteleop.bus.lag import Lag
 from zteleop.bus.loop import Loop
 from zteleop.bus.settings import BEHIND, BusSettings
 
@@ -75,6 +76,8 @@ class Inbox(Protocol):
     """A ring, and how to read what is in it."""
 
     ring: Ring
+    lag: Lag
+    """whether it is read as fast as it is filled"""
 
     def read(self, sample: Sample) -> Any | None:
         """Return what a sample says; None when it says nothing."""

@@ -6,6 +6,7 @@ from typing import Any, Generic, NamedTuple, TypeVar
 
 from zteleop.bus import clock, codec
 from zteleop.bus.codec import Decoder
+from zteleop.bus.lag import Lag
 from zteleop.bus.session import Ring, Sample
 from zteleop.control.proof import Proof
 from zteleop.errors import MessageError
@@ -38,11 +39,13 @@ class Subscription(Generic[M]):
         accepted: dict[str, Decoder],
         complain: Callable[[str], None],
         handling: Callable[[], AbstractContextManager[object]] = nullcontext,
+        lag: Lag | None = None,
     ) -> None:
         self.ring = ring
         self._accepted = accepted
         self._complain = complain
         self._handling = handling
+        self.lag = lag or Lag()
         self.on_wait: Callable[[], object] = _nothing
         """called when somebody begins to iterate, and runs no loop meanwhile"""
         self.dropped = 0
@@ -51,10 +54,14 @@ class Subscription(Generic[M]):
         """Yield messages as they come, until the node is closed."""
         self.on_wait()
         while True:
-            try:
-                sample = self.ring.recv()
-            except EOFError:
-                return
+            if sample := self.ring.try_recv():
+                self.lag.goes_on()
+            else:
+                self.lag.is_over()
+                try:
+                    sample = self.ring.recv()
+                except EOFError:
+                    return
             if received := self.read(sample):
                 with self._handling():  # what the body commands, it decided on what was heard before
                     yield received.message

@@ -11,6 +11,7 @@ from msgspec import Struct
 
 from zteleop.bus import clock, presence
 from zteleop.bus.escape import printable
+from zteleop.bus.lag import Lag
 from zteleop.bus.loop import FAR, Loop
 from zteleop.bus.names import Name, resolve
 from zteleop.bus.session import Delivery, Overheard, Ring, Sample, Session, open_session
@@ -173,6 +174,7 @@ class Listening:
 class _Inbox:
     def __init__(self, ring: Ring) -> None:
         self.ring = ring
+        self.lag = Lag()
 
     def read(self, sample: Sample) -> Arrival | None:
         return Arrival(clock.now(), sample) if sample.is_put else None

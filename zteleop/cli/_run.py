@@ -11,6 +11,17 @@ from zteleop.processes.ending import in_words
 
 _BACKWARDS = re.compile(r"-[\d.]+[a-z°/]+")
 """A measure such as -0.2m/s, which argparse would take for an option."""
+OF_ROS = {
+    "--qos": "of QoS there is nothing to choose here",
+    "--no-daemon": "there is no daemon; whoever is on the bus is asked",
+    "--spin-time": "there is no wait to choose; whoever is on the bus is asked",
+    "--include-hidden": "nothing is hidden; -v shows who says and hears it",
+    "--wait-matching": "it waits for whoever hears by itself, for a moment",
+    "--keep-alive": "what is said once is heard by whoever is there; -r says it again and again",
+    "--print": "each message is printed",
+    "--use-sim-time": "all go by one clock",
+}
+"""how options begin that are typed out of habit -> what to know instead"""
 
 
 def run_verb(verb: str, text: str, arguments: list[str]) -> int:
@@ -37,10 +48,13 @@ def _unknown(words: list[str], parser: argparse.ArgumentParser) -> str:
     """Return what is wrong with words that a verb does not take, and which of its options was meant."""
     from difflib import get_close_matches
 
-    typed = next((word.partition("=")[0] for word in words if word.startswith("--")), "")
-    if typed.startswith("--qos"):
-        return f"no option {typed}: of QoS there is nothing to choose here"
-    known = [option for option in parser.format_help().replace(",", " ").split() if option.startswith("--")]
-    if typed and (near := get_close_matches(typed, sorted(set(known)), 1, 0.8)):
+    option = next((word.partition("=")[0] for word in words if word.startswith("-")), "")
+    if known := next((told for begin, told in OF_ROS.items() if option.startswith(begin)), ""):
+        return f"no option {option}: {known}"
+    typed = option if option.startswith("--") else ""
+    options = {word for word in parser.format_help().replace(",", " ").split() if word.startswith("--")}
+    if typed and (near := get_close_matches(typed, sorted(options), 1, 0.8)):
         return f"no option {typed}; did you mean {near[0]}?"
+    if option:
+        return f"no option {option}; {parser.prog} --help shows those there are"
     return f"unrecognized arguments: {' '.join(words)}"

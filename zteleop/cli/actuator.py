@@ -3,6 +3,7 @@ import argparse
 import msgspec
 
 from zteleop import config
+from zteleop.bus.node import Node
 from zteleop.cli import _options
 from zteleop.config import Config
 from zteleop.control.calibration import check_pulses
@@ -10,6 +11,7 @@ from zteleop.control.settings import DriveSettings
 from zteleop.drivers import DRIVERS, open_driver
 from zteleop.drivers.registers import longest_us
 from zteleop.errors import ConfigError
+from zteleop.machine import changes
 from zteleop.processes import watchdog
 
 EXAMPLES = (
@@ -54,7 +56,14 @@ def run(arguments: argparse.Namespace) -> int:
         drive=drive,
         journal=arguments.journal or settings.journal,
     )
-    return watchdog.run(tuned, hand, lambda node: _options.end_with_parent(arguments, node))
+    return watchdog.run(tuned, hand, lambda node: _joined(arguments, node))
+
+
+def _joined(arguments: argparse.Namespace, node: Node) -> None:
+    _options.end_with_parent(arguments, node)
+    if path := arguments.config or config.found():
+        loop, log = node.membership.loop, node.log
+        changes.watch(path, lambda words: loop.call_soon(lambda: log.warn(words)))
 
 
 def _tuned(settings: Config, arguments: argparse.Namespace, tick_us: float) -> DriveSettings:

@@ -7,10 +7,12 @@ import pytest
 from unit.bus.fakes import Ring, Sample, put, sample
 
 from zteleop.bus import codec
+from zteleop.bus.lag import Lag
 from zteleop.bus.loop import Loop
 from zteleop.bus.pump import Pump
 from zteleop.bus.subscription import Subscription
 from zteleop.messages import String
+from zteleop.testing import Clock
 
 
 class Inbox:
@@ -109,6 +111,28 @@ class TestPump:
             assert heard[number:] == [str(number)]
         assert loop.next == pump._hand_over
         assert pump._emptied.held
+
+    def test_a_handler_that_is_too_slow_is_told(self, clock: Clock) -> None:
+        inbox, told = Inbox(*(sample(String("a")) for _ in range(9))), []
+        inbox.subscription.lag = Lag(told.append)
+        pump = Pump(inbox.subscription, lambda received: clock.pass_by(0.3), Obedient())
+        pump._sample = inbox.ring.recv()
+        for _ in range(4):
+            pump._hand_over()
+        assert told == []
+        pump._hand_over()
+        assert "(3.3 a second)" in told[0]
+
+    def test_a_handler_that_keeps_up_is_not(self, clock: Clock) -> None:
+        inbox, told = Inbox(), []
+        inbox.subscription.lag = Lag(told.append)
+        pump = Pump(inbox.subscription, lambda received: clock.pass_by(0.3), Obedient())
+        for _ in range(9):
+            pump._sample = sample(String("a"))
+            inbox.ring.samples.append(sample(String("b")))
+            pump._hand_over()
+            pump._hand_over()
+        assert told == []
 
     def test_what_is_no_message_takes_its_turn_too(self) -> None:
         inbox, heard = Inbox(*[put(b"{}")] * 9), []

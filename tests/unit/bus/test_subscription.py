@@ -4,6 +4,7 @@ import pytest
 from unit.bus.fakes import Ring, Sample, put, sample
 
 from zteleop.bus import codec
+from zteleop.bus.lag import LAGS_AFTER, Lag
 from zteleop.bus.subscription import Received, Subscription
 from zteleop.control.proof import Proof
 from zteleop.messages import Pwm, String
@@ -18,7 +19,7 @@ class Inbox:
     def __init__(self, *samples: Sample) -> None:
         self.ring, self.complaints = Ring(*samples), []
         self.subscription: Subscription[String] = Subscription(
-            self.ring, codec.decoders([String]), self.complaints.append
+            self.ring, codec.decoders([String]), self.complaints.append, lag=Lag(self.complaints.append)
         )
 
     def read(self, sample: Sample) -> Received[String] | None:
@@ -90,3 +91,31 @@ def test_a_bad_message_does_not_hide_the_one_before() -> None:
 def test_iteration_ends_with_the_session() -> None:
     inbox = Inbox(sample(String("a")), put(b"{}"), sample(String("b")))
     assert list(inbox.subscription) == [String("a"), String("b")]
+
+
+def lagging(pause: float, clock: Clock, messages: int = 40) -> list[str]:
+    inbox = Inbox(*[sample(String("a"))] * messages)
+    for _ in inbox.subscription:
+        clock.pass_by(pause)
+    return inbox.complaints
+
+
+def test_a_program_that_is_slower_than_what_it_hears_is_told_so(clock: Clock) -> None:
+    assert lagging(0.1, clock, messages=int(LAGS_AFTER / 0.1) + 3) == [
+        "messages come faster than this program takes them (10 a second): "
+        "they wait, and the oldest are lost once too many do"
+    ]
+
+
+def test_messages_that_waited_for_a_moment_are_nothing_to_tell(clock: Clock) -> None:
+    assert lagging(LAGS_AFTER / 50, clock) == []
+
+
+def test_only_messages_that_wait_without_end_are_told(clock: Clock) -> None:
+    lag, told = (inbox := Inbox()).subscription.lag, inbox.complaints
+    for _ in range(5):
+        lag.goes_on()
+        clock.pass_by(0.6 * LAGS_AFTER)
+        lag.is_over()
+        clock.pass_by(0.6 * LAGS_AFTER)
+    assert told == []

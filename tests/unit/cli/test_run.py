@@ -115,9 +115,22 @@ def test_a_wrong_argument_is_a_usage_error(capsys: pytest.CaptureFixture[str]) -
         ("pub", "cmd_vel Twist --rote 5", "no option --rote; did you mean --rate?"),
         ("pub", "cmd_vel Twist --rote=5", "no option --rote; did you mean --rate?"),
         ("keyboard", "--keymapp wasd", "no option --keymapp; did you mean --keymap?"),
-        ("stop", "--reason x", "unrecognized arguments: --reason"),  # never --release
+        (
+            "stop",
+            "--reason x",
+            "no option --reason; zteleop stop --help shows those there are",
+        ),  # never --release
         ("echo", "odom --qos-depth 5", "no option --qos-depth: of QoS there is nothing to choose here"),
-        ("keyboard", "--zebra wasd", "unrecognized arguments: --zebra wasd"),
+        ("list", "--no-daemon", "no option --no-daemon: there is no daemon; whoever is on the bus is asked"),
+        (
+            "list",
+            "--include-hidden-topics",
+            "no option --include-hidden-topics: nothing is hidden; -v shows who says and hears it",
+        ),
+        ("pub", "cmd_vel Twist -p 3", "no option -p; zteleop pub --help shows those there are"),
+        ("list", "--colour", "no option --colour; zteleop list --help shows those there are"),
+        ("list", "a b", "unrecognized arguments: a b"),
+        ("keyboard", "--zebra wasd", "no option --zebra; zteleop keyboard --help shows those there are"),
     ],
 )
 def test_an_option_that_is_nearly_one_is_asked_about(
