@@ -12,7 +12,6 @@ import pytest
 from rig import Process, Rig, Terminal, until
 
 UP = "\x1b[A"
-LINE = re.compile(r" *(\d+) s  (\w+) +(-?\d+\.\d\d) m/s .* throttle (\d+)  steering (\d+)")
 
 
 @pytest.fixture(scope="module")
@@ -147,20 +146,9 @@ def test_a_demo_leaves_the_robot_of_the_config_file_alone(rig: Rig, screen: Term
     assert screen.ends() == 0
 
 
-def test_without_a_terminal_it_drives_a_figure_and_says_so_every_second(pair: Pair) -> None:
+def test_without_a_terminal_it_drives_a_figure_and_ends_by_itself(pair: Pair) -> None:
     figure, robot, _ = pair
     assert figure.ends() == 0
     assert figure.lines[0] == "no terminal: driving a figure of eight for 10 s"
     assert re.fullmatch(r"drove [1-9]\.\d m and stopped", figure.lines[-1])
-    lines = [LINE.match(line) for line in figure.lines[1:-1]]
-    assert all(lines), figure.text
-    seconds, states, speeds, throttles, steerings = zip(
-        *(line.groups() for line in lines if line), strict=True
-    )
-    assert [int(second) for second in seconds] == list(range(len(seconds)))
-    assert len(seconds) in (10, 11)
-    assert set(states) <= {"driving", "idle"}
-    assert max(map(float, speeds)) > 0.3
-    assert max(map(int, throttles)) > 370
-    assert min(map(int, steerings)) < 375 < max(map(int, steerings))
     assert processes(robot) == []
