@@ -54,7 +54,7 @@ def says_something_and_ends(process: Process) -> None:
 
 
 def needs_odometry(text: str) -> bool:
-    return "odom" in text.lower() or find_verb(text.split()[1:])[0] in ("circle", "square")
+    return "odom" in text.lower() or find_verb(text.split()[1:])[0] in ("circle", "square", "goto")
 
 
 @contextmanager

@@ -8,6 +8,8 @@ from subprocess import CompletedProcess
 import pytest
 from rig import NEUTRAL, Process, Rig, until
 
+from zteleop.text.quantity import quantity
+
 TANK = """
 [drive.mixer]
 kind = "differential"
@@ -64,6 +66,24 @@ def test_a_square_ends_where_it_began(request: pytest.FixtureRequest, robot: str
 
 
 @pytest.mark.parametrize(
+    ("robot", "place"),
+    [("tank", "-20cm -0.1"), ("car", "1m 50cm --speed 1m/s"), ("car", "-1 -50cm --speed 1m/s --within 20cm")],
+)
+def test_a_place_is_driven_to(request: pytest.FixtureRequest, robot: str, place: str) -> None:
+    result = ask(request.getfixturevalue(robot), f"goto {place}")
+    assert (result.returncode, result.stderr) == (0, "")
+    *_, x, y, off, way, _ = [float(n) for n in re.findall(r"-?\d+\.\d+", result.stdout)]
+    meant_x, meant_y = (quantity(text, "length") for text in place.split()[:2])
+    assert (x, y) == (pytest.approx(meant_x, abs=0.25), pytest.approx(meant_y, abs=0.25))
+    assert off <= 0.25
+    assert way > 0.1
+    again = ask(request.getfixturevalue(robot), f"goto {place}")
+    assert (again.returncode, again.stderr) == (0, "")
+    assert f"{robot if robot == 'tank' else 'bench'} is there already, " in again.stdout
+    assert again.stdout.count("\n") == 1
+
+
+@pytest.mark.parametrize(
     ("line", "way", "turned"),
     [
         ("drive 20cm/s 30deg/s --for 1s", 0.2, 30.0),
@@ -85,6 +105,9 @@ def test_a_motion_is_measured(tank: Rig, line: str, way: float, turned: float) -
         ("circle 50cm", 1, "bench drives no circle of 0.5 m: its steering allows 60cm, and wider"),
         ("circle fifty", 2, "expected a length such as 50cm, found 'fifty'"),
         ("circle 0", 2, "expected more than nothing, found 0"),
+        ("goto 1m 1m --speed fast", 2, "expected a speed such as 0.2m/s, found 'fast'"),
+        ("goto 1m", 2, "the following arguments are required: Y"),
+        ("goto here 1m", 2, "argument X: expected a length such as 50cm, found 'here'"),
         ("circle 1m --laps none", 2, "expected a number of laps such as 2 or 0.5, found none"),
         ("square -1m", 2, "expected more than nothing, found -1m"),
         ("drive 0.2m", 1, "expected a speed such as 0.2m/s, found '0.2m', which is a length"),
@@ -134,6 +157,15 @@ def test_whoever_drives_with_keys_takes_over_from_a_course(car: Rig) -> None:
     assert circle.ends() == 1
     assert "keyboard" in circle.lines[-1]
     keys.type("q")
+
+
+def test_a_program_drives_instead_of_whoever_plans(car: Rig) -> None:
+    planner = started(car, "goto 99m 0")
+    program = started(car, "drive 0.5m/s")
+    assert planner.ends() == 1
+    assert "program" in planner.lines[-1]
+    program.signal(signal.SIGINT)
+    program.ends()
 
 
 def test_ctrl_c_brings_it_to_rest_and_says_how_far_it_came(car: Rig) -> None:

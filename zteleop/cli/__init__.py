@@ -12,6 +12,7 @@ VERBS = {
     "drive": "drive at a speed for some time, and say how far it went",
     "circle": "drive a circle, and say how wide it was",
     "square": "drive a square, and say how far from its start it ended",
+    "goto": "drive to a place, and say how near it came",
     "keys": "show what your terminal sends for each key, and what that does",
     "actuator": "obey commands: turn them into pulses for servos and ESCs",
     "stop": "stop a robot until it is released",

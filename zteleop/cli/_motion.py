@@ -6,7 +6,7 @@ from math import degrees
 
 from zteleop.bus import clock
 from zteleop.bus.escape import printable
-from zteleop.bus.node import Node
+from zteleop.bus.node import PROGRAM, Node
 from zteleop.bus.subscription import Received
 from zteleop.bus.topics import TOPICS
 from zteleop.cli import _options
@@ -32,10 +32,10 @@ STANDS = 0.5
 class Motion:
     """One course of one robot: it ends with the course, or where the robot obeys no more."""
 
-    def __init__(self, verb: str, node: Node) -> None:
+    def __init__(self, verb: str, node: Node, source: str = PROGRAM) -> None:
         """Wait for the robot; raises BusError when it does not answer."""
         self._node = node
-        self._publisher = node.publisher("cmd_vel", Twist, wait=False)
+        self._publisher = node.publisher("cmd_vel", Twist, source=source, wait=False)
         self._outcome = Outcome(verb, node, self._publisher)
         await_robot(verb, node, self._publisher)
         self._progress = Progress()

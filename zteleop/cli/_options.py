@@ -172,6 +172,14 @@ def count(text: str) -> int:
     return int(text)
 
 
+def place(text: str) -> float:
+    """Return a coordinate as typed, such as -50cm, in m."""
+    try:
+        return quantity(text, "length")
+    except ConfigError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+
+
 def measure(dimension: Dimension) -> Callable[[str], float]:
     """Return what reads a measure as typed, such as 50cm, in SI units; more than nothing."""
 

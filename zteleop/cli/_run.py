@@ -48,11 +48,13 @@ def _unknown(words: list[str], parser: argparse.ArgumentParser) -> str:
     """Return what is wrong with words that a verb does not take, and which of its options was meant."""
     from difflib import get_close_matches
 
-    option = next((word.partition("=")[0] for word in words if word.startswith("-")), "")
+    option = next((word.partition("=")[0] for word in words if word.startswith("-") and word != "--"), "")
     if known := next((told for begin, told in OF_ROS.items() if option.startswith(begin)), ""):
         return f"no option {option}: {known}"
     typed = option if option.startswith("--") else ""
     options = {word for word in parser.format_help().replace(",", " ").split() if word.startswith("--")}
+    if typed in options:
+        return f"{typed} stands behind --, where all is taken as it is; write it before that"
     if typed and (near := get_close_matches(typed, sorted(options), 1, 0.8)):
         return f"no option {typed}; did you mean {near[0]}?"
     if option:

@@ -23,6 +23,7 @@ SOURCES = {
     "keyboard": Source(priority=90),
     "buttons": Source(priority=80),
     "program": Source(priority=50, silence=PROGRAM_SILENCE),
+    "planner": Source(priority=10, silence=PROGRAM_SILENCE),
 }
 
 

@@ -23,7 +23,7 @@ def test_a_good_file_is_told_with_what_it_makes(
     assert "vehicle  ackermann, at most 3 m/s and 5.1 rad/s\n" in out
     assert "steering channel 1: 1183 1530 1877 us = 290 375 460 ticks\n" in out
     assert "throttle channel 0: 898 1510 2040 us = 220 370 500 ticks\n" in out
-    assert out.endswith("sources  web 100, gamepad 95, keyboard 90, buttons 80, program 50\n"), (
+    assert out.endswith("sources  web 100, gamepad 95, keyboard 90, buttons 80, program 50, planner 10\n"), (
         "nothing is set anew"
     )
 

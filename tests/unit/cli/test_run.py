@@ -129,6 +129,7 @@ def test_a_wrong_argument_is_a_usage_error(capsys: pytest.CaptureFixture[str]) -
         ),
         ("pub", "cmd_vel Twist -p 3", "no option -p; zteleop pub --help shows those there are"),
         ("list", "--colour", "no option --colour; zteleop list --help shows those there are"),
+        ("list", "-- --robot", "--robot stands behind --, where all is taken as it is; write it before that"),
         ("list", "a b", "unrecognized arguments: a b"),
         ("keyboard", "--zebra wasd", "no option --zebra; zteleop keyboard --help shows those there are"),
     ],
