@@ -7,6 +7,7 @@ from zteleop.bus import clock
 from zteleop.bus.lane.call import Call
 from zteleop.bus.node import Node
 from zteleop.bus.presence import Robots, who_is_here
+from zteleop.cli._floor import Floor
 from zteleop.cli._painter import HEARD_WITHIN, Painter, Shown
 from zteleop.config import Config
 from zteleop.control.report import to_vehicle
@@ -63,7 +64,7 @@ def drive_at_terminal(
         paint = Painter(device, known)
         paint(View())
         session = node.membership.session
-        robots = Robots(session)
+        robots, floor = Robots(session), Floor(node)
         vehicle = find_vehicle(node, settings)
         device.settle(clock.now)  # once more: what was typed while nobody looked
 
@@ -73,7 +74,9 @@ def drive_at_terminal(
                 others = [robot for robot in robots.there() if robot != known.robot]
                 unreached = session.unreached()
                 words = who_is_here(others, known.robot, unreached) if others or unreached else ""
-                paint.known = known._replace(others=words)
+                paint.known = paint.known._replace(others=words)
+            if (marks := floor.news()) is not None:
+                paint.known = paint.known._replace(floor=marks)
             switches.heed(device.switches)
             if device.suspending:
                 device.suspend(clock.now())  # its last word is said

@@ -12,6 +12,7 @@ from pathlib import Path
 from zteleop.bus import clock
 from zteleop.bus.node import Node
 from zteleop.bus.settings import SAME_MACHINE_DOOR, BusSettings
+from zteleop.cli import _scenes
 from zteleop.cli._driving import find_vehicle
 from zteleop.cli.keyboard import drive_with_keys
 from zteleop.config import Config
@@ -21,7 +22,7 @@ from zteleop.inputs.script import Script
 from zteleop.machine.leash import Process, leashed
 from zteleop.messages import Odometry
 from zteleop.nodes.teleop import Teleop
-from zteleop.screen.floor import load, marks
+from zteleop.screen.floor import marks
 from zteleop.screen.view import View
 
 EXAMPLES = (
@@ -32,15 +33,25 @@ OTHER: dict[Drive, tuple[Drive, str]] = {
     "step": ("hold", "drives while a key is held"),
     "hold": ("step", "each press moves a lever, and there it stays"),
 }
+SCENE, OPEN = "eight", "floor"
+"""where it drives at a screen, and where nobody sees what stands in its way"""
 START = 10.0
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--scene",
+        metavar="NAME",
+        help=f"where it drives: {', '.join(_scenes.names())}, or a file (default: {SCENE})",
+    )
     parser.add_argument("--drive", choices=["step", "hold"], help="how the keys drive (default: step)")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Start actuator and simulator as processes of their own; drive them from here."""
+    screen = sys.stdin.isatty() and sys.stdout.isatty()
+    place = arguments.scene or (SCENE if screen else OPEN)
+    scene, _ = _scenes.find(place)
     robot = f"demo-{secrets.token_hex(2)}"
     endpoint = f"tcp/127.0.0.1:{_free_port()}"
     with ExitStack() as stack:
@@ -50,14 +61,15 @@ def run(arguments: argparse.Namespace) -> int:
         where = ["--config", str(folder / "config.toml"), "--robot", robot, "--no-multicast-scouting"]
         actuator = ["actuator", *where, "--listen", endpoint, "--listen", SAME_MACHINE_DOOR]
         simulator = ["sim", *where, "--connect", endpoint, "--listen", "tcp/127.0.0.1:0"]
+        simulator += ["--scene", place]
         keeps = {"XDG_STATE_HOME": str(folder)}  # a demo leaves nothing behind
         children = [stack.enter_context(leashed(verb, log, keeps)) for verb in (actuator, simulator)]
         bus = BusSettings(connect=[endpoint], listen=["tcp/127.0.0.1:0"], multicast=False)
         node = stack.enter_context(Node("keyboard", robot, bus))
         await_robot(node, children, Path(log.name))
-        if sys.stdin.isatty() and sys.stdout.isatty():
+        if screen:
             trip = Trip()
-            drive = drive_with_keys(node, Config(bus=bus), arguments.drive, marks(load("eight")), trip)
+            drive = drive_with_keys(node, Config(bus=bus), arguments.drive, marks(scene), trip)
             ending = farewell(trip, drive)
         else:
             return drive_figure(node)

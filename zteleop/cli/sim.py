@@ -6,7 +6,7 @@ from zteleop import config
 from zteleop.bus import clock, presence
 from zteleop.bus.node import Node
 from zteleop.bus.session import Session, open_session
-from zteleop.cli import _options
+from zteleop.cli import _options, _scenes
 from zteleop.config import Config
 from zteleop.errors import DeviceError
 from zteleop.messages import Odometry
@@ -14,7 +14,7 @@ from zteleop.nodes import simulator
 
 EXAMPLES = (
     "zteleop sim",
-    "zteleop sim car --robot archangel",
+    "zteleop sim car --robot archangel --scene classroom",
 )
 SPEAKS_WITHIN = 1.0
 """s in which another one is heard, if it moves the same robot"""
@@ -27,11 +27,15 @@ LOST_AFTER = 1.0
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add(parser)
     parser.add_argument("vehicle", nargs="?", choices=["car"], default="car", help="what to simulate")
+    parser.add_argument(
+        "--scene", metavar="NAME", help=f"where it drives: {', '.join(_scenes.names())}, or a file"
+    )
     _options.add_parent(parser)
 
 
 def run(arguments: argparse.Namespace) -> None:
     settings = _options.load(arguments)
+    scene = _scenes.find(arguments.scene) if arguments.scene else None
     session = open_session(settings.bus, settle=True)
     with _join(_robot_of(settings, session), session) as node:
         robot = node.robot or ""
@@ -39,7 +43,7 @@ def run(arguments: argparse.Namespace) -> None:
         _options.end_with_parent(arguments, node)
         node.log.info(f"moves {robot}, a simulated {arguments.vehicle}, by the pulses in {driver['path']}")
         node.every(TELL_AFTER)(Attendant(node).look)
-        simulator.run(node, settings.drive, driver["path"], lambda line: print(line, flush=True))
+        simulator.run(node, settings.drive, driver["path"], lambda line: print(line, flush=True), scene)
 
 
 @contextmanager

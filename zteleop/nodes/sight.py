@@ -6,7 +6,7 @@ from zteleop.control.hold import HOLDS
 from zteleop.messages import DriveStatus, Log, Odometry, Vehicle, WatchdogStatus
 from zteleop.screen.view import Unmanned
 
-OWN = ("watchdog", "actuator", "blackbox")
+OWN = ("watchdog", "actuator", "blackbox", "sim")
 """The robot's processes; what other operators' programs complain of is theirs to read."""
 NEWS = 10.0
 """s that a line of the log is shown; what it says may be over by then"""

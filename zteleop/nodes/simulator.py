@@ -1,7 +1,8 @@
-"""Reads the simulated chip as a car would, moves, and says where it is."""
+"""Reads the simulated chip as a car would, moves in its scene, and says where it is."""
 
 from collections.abc import Callable
 from math import degrees
+from random import Random
 
 from zteleop.bus import clock
 from zteleop.bus.node import Node
@@ -9,9 +10,12 @@ from zteleop.bus.topics import TOPICS
 from zteleop.control.settings import DriveSettings
 from zteleop.drivers.registers import read_pulse_us
 from zteleop.drivers.simulated import open_registers
-from zteleop.messages import Odometry
+from zteleop.messages import Header, Odometry, Range, String
 from zteleop.sim import make_vehicle
 from zteleop.sim.body import Body
+from zteleop.sim.ranges import RangeSensor
+from zteleop.sim.scene import Scene
+from zteleop.sim.world import World
 
 PERIOD, AT_REST = 0.01, 0.05
 """s between two looks at the chip, and while the vehicle stands"""
@@ -22,9 +26,21 @@ STANDS_BELOW = 0.001
 """m between two looks"""
 
 
-def run(node: Node, settings: DriveSettings, path: str, show: Callable[[str], None] = print) -> None:
-    """Move a vehicle by the pulses in a register file until the node is stopped, and show how it moves."""
+def run(
+    node: Node,
+    settings: DriveSettings,
+    path: str,
+    show: Callable[[str], None] = print,
+    scene: tuple[Scene, str] | None = None,
+) -> None:
+    """Move a vehicle by the pulses in a register file until the node is stopped, and show how it moves.
+
+    In a scene, which comes with its text, it runs into what stands there, and says how far that is.
+    Raises ConfigError for a scene in which it does not fit.
+    """
     vehicle = make_vehicle(settings.mixer, settings.servos)
+    if scene:
+        furnish(node, vehicle, *scene)
     registers = open_registers(path)
     odoms = node.publisher("odom", Odometry)
     channels = [servo.channel for servo in settings.servos.values()]
@@ -56,6 +72,26 @@ def run(node: Node, settings: DriveSettings, path: str, show: Callable[[str], No
         rolled, moved = vehicle.distance, moves
 
     node.spin()
+
+
+def furnish(node: Node, vehicle: Body, scene: Scene, text: str) -> None:
+    """Put a vehicle into a scene; say what that is, what it hits, and how far it is to what stands ahead."""
+    world = vehicle.room = World(scene, vehicle.discs)
+    sensor, chance = RangeSensor(), Random(0)
+    scenes, ranges = node.publisher("scene", String), node.publisher("range", Range)
+    told = ""
+
+    node.every(TOPICS["scene"].every)(lambda: scenes.publish(String(text)))
+
+    @node.every(TOPICS["range"].every)
+    def look() -> None:
+        nonlocal told
+        ahead = sensor.measure(world, world.nose)
+        ranges.publish(sensor.state(Header(clock.stamp(), "range"), ahead, chance))
+        touched = world.contact.name if world.contact else ""
+        if touched and touched != told:
+            node.log.warn(f"it stands at {scene.called(touched)}, and can only drive away from there")
+        told = touched
 
 
 def motion(vehicle: Body) -> str:

@@ -1,19 +1,13 @@
 """What a scene puts on the floor around a robot, as the picture shows it."""
 
 from collections.abc import Sequence
-from importlib.resources import files
 from math import cos, sin
 
 from zteleop.screen.top_view import Mark
-from zteleop.sim.scene import Colour, Pose, Scene, Tape, Wall, parse
+from zteleop.sim.scene import Colour, Pose, Scene, Tape, Wall
 
 STYLES: dict[Colour, str] = {"yellow": "yellow", "orange": "red", "red": "red", "green": "green"}
 """What a terminal has of the colours of a scene."""
-
-
-def load(name: str) -> Scene:
-    """Return one of the scenes that come along."""
-    return parse((files("zteleop.sim") / "scenes" / f"{name}.toml").read_bytes())
 
 
 def marks(scene: Scene) -> list[Mark]:

@@ -3,7 +3,9 @@
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from math import ceil, cos, remainder, sin, tau
+from typing import NamedTuple, Protocol
 
+from zteleop.control.motion.pose import Pose2D
 from zteleop.messages import (
     Header,
     Odometry,
@@ -24,10 +26,27 @@ LONGEST_STEP = 1.0
 """s; whoever calls later than that has lost the rest."""
 
 
+class Disc(NamedTuple):
+    """A part of a body, round as seen from above: so far ahead of base_link, so large, m."""
+
+    ahead: float
+    radius: float
+
+
+class Room(Protocol):
+    def admits(self, before: Pose2D, after: Pose2D) -> bool:
+        """Say whether the body may go from one pose to the next."""
+
+
 class Body(ABC):
     """Pose of base_link in the odom frame (m, rad) and its velocity (m/s, rad/s)."""
 
+    discs: tuple[Disc, ...]
+    """what it is seen from above, and runs into things with"""
+
     def __init__(self) -> None:
+        self.room: Room | None = None
+        """what bounds where it goes; nothing on a floor without end"""
         self.x = 0.0
         self.y = 0.0
         self.heading = 0.0
@@ -50,6 +69,14 @@ class Body(ABC):
             self.move(pulse_us, dt / substeps)
             self._roll(dt / substeps)
 
+    def halt(self) -> None:
+        """Stand, as what runs into something does; it may drive on at once."""
+        self.speed = self.yaw_rate = 0.0
+
+    @property
+    def pose(self) -> Pose2D:
+        return Pose2D(self.x, self.y, self.heading)
+
     def odometry(self, stamp: Time) -> Odometry:
         """Return pose and twist, in odom and base_link."""
         turned = Quaternion(0.0, 0.0, sin(self.heading / 2), cos(self.heading / 2))
@@ -64,7 +91,11 @@ class Body(ABC):
 
     def _roll(self, dt: float) -> None:
         turn, way = self.yaw_rate * dt, self.speed * dt
-        self.x += way * cos(self.heading + turn / 2)
-        self.y += way * sin(self.heading + turn / 2)
-        self.heading = remainder(self.heading + turn, tau)
+        middle = self.heading + turn / 2
+        x, y = self.x + way * cos(middle), self.y + way * sin(middle)
+        heading = remainder(self.heading + turn, tau)
+        if self.room and not self.room.admits(self.pose, Pose2D(x, y, heading)):
+            self.halt()
+            return
+        self.x, self.y, self.heading = x, y, heading
         self.distance += abs(way)

@@ -8,7 +8,7 @@ from msgspec import Meta
 
 from zteleop.control.mixer import Ackermann
 from zteleop.control.servo import Servo
-from zteleop.sim.body import Body, Pulses
+from zteleop.sim.body import Body, Disc, Pulses
 from zteleop.sim.esc import EscSettings, fraction
 
 
@@ -17,12 +17,17 @@ class CarSettings(EscSettings, frozen=True, forbid_unknown_fields=True):
     """rad/s of the front wheels."""
 
 
+DISCS = ((0.2, 0.5), (0.5, 0.5), (0.8, 0.5))
+"""Ahead, and radius, of the wheelbase: a body a third longer than wide, with an overhang at both ends."""
+
+
 class Car(Body):
     def __init__(
         self, mixer: Ackermann, servos: Mapping[str, Servo], settings: CarSettings | None = None
     ) -> None:
         super().__init__()
         self._mixer = mixer
+        self.discs = tuple(Disc(a * mixer.wheelbase, r * mixer.wheelbase) for a, r in DISCS)
         self._settings = settings or CarSettings()
         self._steering = servos["steering"]
         self._throttle = servos["throttle"]

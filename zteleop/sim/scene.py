@@ -28,6 +28,9 @@ POST_SIDES = 12
 """by which a round post is shown"""
 
 
+CALLED = {"walls": "wall", "posts": "post", "boxes": "box"}
+
+
 class Pose(Struct, frozen=True, forbid_unknown_fields=True):
     x: Coordinate = 0.0
     y: Coordinate = 0.0
@@ -127,6 +130,13 @@ class Scene(Struct, frozen=True, forbid_unknown_fields=True):
                 raise ValueError(f"the start lies in drops[{at}], where there is no floor")
         if (found := self._sides()) > MOST_SIDES:
             raise ValueError(f"a scene has at most {MOST_SIDES} straight sides in all, found {found}")
+
+    def called(self, name: str) -> str:
+        """Return a part of it in words, by a name such as posts[0]."""
+        kind, at = name.rstrip("]").split("[")
+        if kind == "drops":
+            return "the edge of the floor"
+        return f"the {getattr(self, kind)[int(at)].colour} {CALLED[kind]}"
 
     def _sides(self) -> int:
         lines = [len(line.points) for line in (*self.walls, *self.tapes)]

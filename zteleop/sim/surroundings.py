@@ -5,8 +5,9 @@ from typing import Protocol
 
 
 class Surroundings(Protocol):
-    contacts: Sequence[float]
-    """Bearings, in rad, of what touches the body now."""
+    @property
+    def contacts(self) -> Sequence[float]:
+        """Bearings, in rad, of what touches the body now."""
 
     def is_floor(self, ahead: float, left: float) -> bool:
         """Say whether there is floor at that place."""

@@ -4,8 +4,11 @@ from collections.abc import Mapping
 
 from zteleop.control.mixer import Differential
 from zteleop.control.servo import Servo
-from zteleop.sim.body import Body, Pulses
+from zteleop.sim.body import Body, Disc, Pulses
 from zteleop.sim.esc import EscSettings
+
+RADIUS = 0.6
+"""of the track"""
 
 
 class Tank(Body):
@@ -14,6 +17,7 @@ class Tank(Body):
     ) -> None:
         super().__init__()
         self._mixer = mixer
+        self.discs = (Disc(0.0, RADIUS * mixer.track),)
         self._settings = settings or EscSettings()
         self._servos = servos["left"], servos["right"]
         self.wheel_speeds = (0.0, 0.0)
@@ -27,6 +31,11 @@ class Tank(Body):
         )
         self.wheel_speeds = left, right
         self.speed, self.yaw_rate = (left + right) / 2, (right - left) / self._mixer.track
+
+    def halt(self) -> None:
+        """Stand, both wheels with it."""
+        super().halt()
+        self.wheel_speeds = (0.0, 0.0)
 
     def _spin(self, servo: Servo, pulse_us: Pulses, speed: float, dt: float) -> float:
         throttle = self._settings.throttle(servo, pulse_us.get(servo.channel))

@@ -1,6 +1,7 @@
 import pytest
 
-from zteleop.screen.floor import load, marks
+from zteleop.cli._scenes import find
+from zteleop.screen.floor import marks
 from zteleop.sim.scene import Box, Pose, Post, Scene, Tape, Wall
 
 
@@ -20,7 +21,7 @@ def test_what_is_closed_comes_back_to_its_first_point_and_all_kinds_are_shown() 
 
 
 def test_a_demo_has_a_line_ahead_and_two_cones() -> None:
-    found = marks(load("eight"))
+    found = marks(find("eight")[0])
     assert sorted(mark.style for mark in found) == ["red", "red", "yellow", "yellow"]
     ahead = [
         point for mark in found if mark.style == "yellow" for point in mark.points if abs(point[1]) < 0.05

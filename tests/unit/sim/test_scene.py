@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from zteleop.errors import ConfigError
 from zteleop.sim import scene
-from zteleop.sim.scene import Box, Scene, Wall, parse
+from zteleop.sim.scene import Box, Post, Scene, Wall, parse
 
 
 def test_nothing_is_a_floor_without_end() -> None:
@@ -139,3 +139,19 @@ def toml(value: object) -> str:
     if isinstance(value, list):
         return "[" + ", ".join(toml(item) for item in value) + "]"
     return str(value).lower() if isinstance(value, bool | float | int) else json.dumps(value)
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("posts[1]", "the red post"),
+        ("walls[0]", "the brown wall"),
+        ("boxes[0]", "the blue box"),
+        ("drops[0]", "the edge of the floor"),
+    ],
+)
+def test_a_part_of_a_scene_is_called_by_its_colour_and_kind(name: str, words: str) -> None:
+    corners = [(0.5, 0.5), (1.0, 0.5), (1.0, 1.0)]
+    posts = [Post((2.0, 0.0)), Post((3.0, 0.0), colour="red")]
+    scene = Scene(walls=[Wall(corners)], posts=posts, boxes=[Box((5.0, 0.0))], drops=[corners])
+    assert scene.called(name) == words

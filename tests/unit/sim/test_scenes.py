@@ -1,14 +1,17 @@
 """The scenes that come along."""
 
+import re
 from itertools import pairwise
 from math import atan2, dist, remainder, tau
 from pathlib import Path
 
 import pytest
 
-from zteleop.sim import outline
+from zteleop.control.settings import DriveSettings
+from zteleop.sim import make_vehicle, outline
 from zteleop.sim.obstacles import Obstacles, clearance
 from zteleop.sim.scene import Scene, parse
+from zteleop.sim.world import World
 
 SCENES = {
     path.stem: parse(path.read_bytes()) for path in Path(outline.__file__).with_name("scenes").iterdir()
@@ -65,3 +68,19 @@ def test_the_eight_starts_on_both_its_rounds_and_has_a_cone_in_each() -> None:
             [1.0] * len(tape.points), abs=1e-6
         )
         assert dist((eight.start.x, eight.start.y), cone.at) == 1.0
+
+
+def test_the_page_tells_of_each_scene_and_its_own_can_be_driven_in() -> None:
+    page = (Path(__file__).parents[3] / "docs/simulation.md").read_text()
+    assert set(re.findall(r"^\| `([a-z]+)` \|", page, re.MULTILINE)) >= set(SCENES)
+    text = page[page.index('    floor = "grey"') : page.index("| key | of |")]
+    scene = parse("\n".join(line[4:] for line in text.splitlines()).encode())
+    assert (len(scene.walls), len(scene.boxes), len(scene.posts), len(scene.tapes)) == (1, 1, 1, 1)
+    settings = DriveSettings()
+    World(scene, make_vehicle(settings.mixer, settings.servos).discs)
+
+
+@pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
+def test_a_car_fits_where_each_begins(scene: Scene) -> None:
+    settings = DriveSettings()
+    World(scene, make_vehicle(settings.mixer, settings.servos).discs)
