@@ -12,6 +12,7 @@ import pytest
 from rig import Process, Rig, Terminal, until
 
 UP = "\x1b[A"
+WALL = re.compile(r"([⠉⠒⠤⣀])\1{4}")
 
 
 @pytest.fixture(scope="module")
@@ -144,6 +145,23 @@ def test_a_demo_leaves_the_robot_of_the_config_file_alone(rig: Rig, screen: Term
     assert rig.ticks == (None, None), "the chip of the config file was woken"
     screen.type("q")
     assert screen.ends() == 0
+
+
+def test_a_tank_is_driven_in_a_maze(rig: Rig) -> None:
+    screen = rig.terminal("demo", "--vehicle", "tank", "--scene", "maze")
+    screen.shows("hold drive", "left 368, right 368")
+    screen.type(UP)
+    until(lambda: WALL.search(screen.screen) and "x 0.00 " not in screen.screen, "motion, beside a wall")
+    screen.type("q")
+    assert screen.ends() == 0
+
+
+def test_a_scene_that_is_none_starts_nothing(rig: Rig) -> None:
+    demo = rig.run("demo", "--scene", "mazze")
+    assert demo.ends() == 1
+    assert demo.lines == [
+        "zteleop demo: no scene 'mazze', nor a file such as ./room.toml; did you mean maze?"
+    ]
 
 
 def test_without_a_terminal_it_drives_a_figure_and_ends_by_itself(pair: Pair) -> None:

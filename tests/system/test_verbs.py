@@ -204,6 +204,14 @@ def test_a_second_simulation_of_a_robot_is_refused(rig: Rig) -> None:
     assert first.ends() == 130
 
 
+def test_a_simulation_of_another_vehicle_than_is_driven_is_said_to_be_one(rig: Rig) -> None:
+    tank = rig.join("sim", "tank")
+    tank.says("moves bench, a simulated tank, by the pulses in ")
+    tank.says("the actuator of bench drives a car, and this simulates a tank: its pulses mean something else")
+    tank.signal(signal.SIGINT)
+    assert tank.ends() == 130
+
+
 def test_a_simulation_says_that_nobody_moves_it(rig: Rig) -> None:
     sim = rig.run("sim", "--robot", "lonely", "--no-multicast-scouting", "-e", rig.endpoint)
     sim.says("waits for pulses: no actuator of lonely is heard (heard here: bench); start zteleop actuator")

@@ -16,6 +16,7 @@ from zteleop.bus.names import resolve, robot_name
 from zteleop.bus.session import Session, open_session
 from zteleop.cli._salvage import salvage
 from zteleop.config import Config
+from zteleop.control.vehicles import VEHICLES, made_into
 from zteleop.errors import ConfigError
 from zteleop.text.quantity import Dimension, quantity
 
@@ -170,6 +171,20 @@ def count(text: str) -> int:
     if not text.isdecimal() or int(text) < 1:
         raise argparse.ArgumentTypeError(f"at least once is meant, found {text}")
     return int(text)
+
+
+def add_vehicle(parser: argparse.ArgumentParser) -> None:
+    """Add the option that makes a robot without settings of its own another vehicle."""
+    parser.add_argument(
+        "--vehicle", choices=[*VEHICLES], help="what it drives (default: what config.toml says, else a car)"
+    )
+
+
+def with_vehicle(options: argparse.Namespace, settings: Config) -> Config:
+    """Return settings with the vehicle that was typed; raises ConfigError where they make another."""
+    if options.vehicle is None:
+        return settings
+    return msgspec.structs.replace(settings, drive=made_into(settings.drive, options.vehicle))
 
 
 def place(text: str) -> float:

@@ -22,6 +22,7 @@ EXAMPLES = (
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add(parser)
+    _options.add_vehicle(parser)
     parser.add_argument("--driver", choices=DRIVERS, help="the chip to write to (default: simulated)")
     parser.add_argument(
         "--pulse-duty",
@@ -42,7 +43,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Watch over a robot until told to end."""
-    settings = _options.load(arguments, listens=True)
+    settings = _options.with_vehicle(arguments, _options.load(arguments, listens=True))
     robot = settings.robot or config.own_name()
     name = arguments.driver or settings.driver
     chip = settings.driver_settings(name, robot)

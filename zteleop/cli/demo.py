@@ -12,7 +12,7 @@ from pathlib import Path
 from zteleop.bus import clock
 from zteleop.bus.node import Node
 from zteleop.bus.settings import SAME_MACHINE_DOOR, BusSettings
-from zteleop.cli import _scenes
+from zteleop.cli import _options, _scenes
 from zteleop.cli._driving import find_vehicle
 from zteleop.cli.keyboard import drive_with_keys
 from zteleop.config import Config
@@ -44,6 +44,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="NAME",
         help=f"where it drives: {', '.join(_scenes.names())}, or a file (default: {SCENE})",
     )
+    _options.add_vehicle(parser)
     parser.add_argument("--drive", choices=["step", "hold"], help="how the keys drive (default: step)")
 
 
@@ -59,8 +60,18 @@ def run(arguments: argparse.Namespace) -> int:
         log = stack.enter_context((folder / "log").open("w"))
         (folder / "config.toml").write_text(f'[drivers.simulated]\npath = "{folder / "chip"}"\n')
         where = ["--config", str(folder / "config.toml"), "--robot", robot, "--no-multicast-scouting"]
-        actuator = ["actuator", *where, "--listen", endpoint, "--listen", SAME_MACHINE_DOOR]
-        simulator = ["sim", *where, "--connect", endpoint, "--listen", "tcp/127.0.0.1:0"]
+        vehicle = arguments.vehicle or "car"
+        actuator = [
+            "actuator",
+            *where,
+            "--vehicle",
+            vehicle,
+            "--listen",
+            endpoint,
+            "--listen",
+            SAME_MACHINE_DOOR,
+        ]
+        simulator = ["sim", vehicle, *where, "--connect", endpoint, "--listen", "tcp/127.0.0.1:0"]
         simulator += ["--scene", place]
         keeps = {"XDG_STATE_HOME": str(folder)}  # a demo leaves nothing behind
         children = [stack.enter_context(leashed(verb, log, keeps)) for verb in (actuator, simulator)]

@@ -8,13 +8,14 @@ from zteleop.bus.node import Node
 from zteleop.bus.session import Session, open_session
 from zteleop.cli import _options, _scenes
 from zteleop.config import Config
+from zteleop.control.vehicles import VEHICLES, name_of
 from zteleop.errors import DeviceError
-from zteleop.messages import Odometry
+from zteleop.messages import Odometry, Vehicle
 from zteleop.nodes import simulator
 
 EXAMPLES = (
     "zteleop sim",
-    "zteleop sim car --robot archangel --scene classroom",
+    "zteleop sim tank --robot archangel --scene maze",
 )
 SPEAKS_WITHIN = 1.0
 """s in which another one is heard, if it moves the same robot"""
@@ -26,7 +27,12 @@ LOST_AFTER = 1.0
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add(parser)
-    parser.add_argument("vehicle", nargs="?", choices=["car"], default="car", help="what to simulate")
+    parser.add_argument(
+        "vehicle",
+        nargs="?",
+        choices=[*VEHICLES],
+        help="what to simulate (default: what config.toml says, else a car)",
+    )
     parser.add_argument(
         "--scene", metavar="NAME", help=f"where it drives: {', '.join(_scenes.names())}, or a file"
     )
@@ -34,15 +40,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> None:
-    settings = _options.load(arguments)
+    settings = _options.with_vehicle(arguments, _options.load(arguments))
     scene = _scenes.find(arguments.scene) if arguments.scene else None
     session = open_session(settings.bus, settle=True)
     with _join(_robot_of(settings, session), session) as node:
         robot = node.robot or ""
+        kind = name_of(settings.drive)
         driver = settings.driver_settings("simulated", robot)
         _options.end_with_parent(arguments, node)
-        node.log.info(f"moves {robot}, a simulated {arguments.vehicle}, by the pulses in {driver['path']}")
-        node.every(TELL_AFTER)(Attendant(node).look)
+        node.log.info(f"moves {robot}, a simulated {kind}, by the pulses in {driver['path']}")
+        node.every(TELL_AFTER)(Attendant(node, kind).look)
         simulator.run(node, settings.drive, driver["path"], lambda line: print(line, flush=True), scene)
 
 
@@ -73,8 +80,10 @@ def _robot_of(settings: Config, session: Session) -> str:
 class Attendant:
     """Says whether anybody moves the car: its actuator comes and goes as it likes."""
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: Node, kind: str) -> None:
         self._node = node
+        self._kind = kind
+        self._meant = ""
         self._heard = node.membership.heard()
         self._there: bool | None = None
         self._began = clock.now()
@@ -83,6 +92,7 @@ class Attendant:
         """Say what has changed since the last look."""
         now = clock.now()
         there = self._heard.beat is not None and now - self._heard.at < LOST_AFTER
+        self._compare(self._heard.vehicle if there else None)
         if there == self._there or (self._there is None and not there and now - self._began < TELL_AFTER):
             return
         was, self._there = self._there, there
@@ -95,3 +105,11 @@ class Attendant:
             here = presence.here(self._node.membership.session, robot)
             start = f"start zteleop actuator --robot {robot}"
             self._node.log.warn(f"waits for pulses: no actuator of {robot} is heard ({here}); {start}")
+
+    def _compare(self, vehicle: Vehicle | None) -> None:
+        """Say so where its actuator drives another kind of vehicle: its pulses mean something else here."""
+        meant = ("car" if vehicle.steers else "tank") if vehicle else ""
+        if meant not in (self._meant, self._kind, ""):
+            words = f"the actuator of {self._node.robot} drives a {meant}, and this simulates a {self._kind}"
+            self._node.log.warn(f"{words}: its pulses mean something else; start zteleop sim {meant}")
+        self._meant = meant
