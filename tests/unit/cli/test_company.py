@@ -74,7 +74,7 @@ def test_where_nobody_is_there_no_robot_is_heard() -> None:
     ("topic", "words"),
     [
         ("abe/scan", "map on pi-7 hears it"),
-        ("abe/scna", "nobody hears it; did you mean scan?"),
+        ("abe/scna", "nobody hears it; did you mean scan or scene?"),
         ("abe/cmdvel", "nobody hears it; did you mean cmd_vel?"),
         ("abe/odom", "nobody hears it now"),
         ("abe/soil", "nobody hears it now"),

@@ -4,6 +4,8 @@ import pytest
 
 from zteleop.cli import sim
 from zteleop.cli.sim import LOST_AFTER, TELL_AFTER, Attendant
+from zteleop.control.report import to_vehicle
+from zteleop.control.settings import DriveSettings
 from zteleop.messages import Beat
 from zteleop.testing import Clock, FakeNode
 
@@ -21,7 +23,7 @@ def beat(node: FakeNode, clock: Clock) -> None:
 def test_its_actuator_is_missed_once_and_told_when_it_comes_goes_and_comes_back(
     node: FakeNode, clock: Clock
 ) -> None:
-    attendant = Attendant(node)  # type: ignore[arg-type]
+    attendant = Attendant(node, "car")  # type: ignore[arg-type]
     attendant.look()
     assert node.warnings == []
     clock.pass_by(TELL_AFTER)
@@ -45,6 +47,21 @@ def test_its_actuator_is_missed_once_and_told_when_it_comes_goes_and_comes_back(
 
 def test_an_actuator_that_is_there_at_once_is_not_missed(node: FakeNode, clock: Clock) -> None:
     beat(node, clock)
-    attendant = Attendant(node)  # type: ignore[arg-type]
+    attendant = Attendant(node, "car")  # type: ignore[arg-type]
     attendant.look()
     assert (node.warnings, len(node.infos)) == ([], 1)
+
+
+def test_another_vehicle_than_is_driven_is_told_once_and_anew_when_its_actuator_comes_back(
+    node: FakeNode, clock: Clock
+) -> None:
+    attendant = Attendant(node, "tank")  # type: ignore[arg-type]
+    node.membership.robot.vehicle = to_vehicle(DriveSettings(), 4.0)
+    for _ in range(2):
+        beat(node, clock)
+        attendant.look()
+        attendant.look()
+        assert node.warnings[-1].endswith("its pulses mean something else; start zteleop sim car")
+        clock.pass_by(LOST_AFTER)
+        attendant.look()
+    assert len([words for words in node.warnings if "simulates a tank" in words]) == 2
