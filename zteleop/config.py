@@ -13,6 +13,7 @@ from msgspec import Struct, field
 from zteleop.bus.names import chunk, robot_name
 from zteleop.bus.settings import BusSettings
 from zteleop.bus.topics import topic_of
+from zteleop.control.motion.dead_reckoning import OdometrySettings
 from zteleop.control.settings import DriveSettings
 from zteleop.control.stick import Speeds
 from zteleop.drivers import DRIVERS, settings_kind, settings_of
@@ -46,6 +47,8 @@ class Config(Struct, frozen=True, forbid_unknown_fields=True):
     """key -> action, beside those of the keymap"""
     gamepad: GamepadSettings = GamepadSettings()
     """which control of a pad does what; `zteleop gamepad --learn` finds it out"""
+    odometry: OdometrySettings = OdometrySettings()
+    """of `zteleop odometry`, which counts where a robot should be"""
     journal: Literal["acts", "all", "off"] = "acts"
     """what a robot keeps of the commands on its disk: who acted, every one, nothing"""
     blackbox: bool = True

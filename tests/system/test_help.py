@@ -44,7 +44,8 @@ def goes_on(verb: str, words: list[str]) -> bool:
     """Say whether a command ends only when it is told to."""
     if verb in ("echo", "pub", "watchdog"):
         return not {"--once", "--times", "--count", "-t", "--for"} & set(words)
-    return verb in ("actuator", "buttons", "sim", "hz", "bw", "delay", "watch", "log") or words == ["up"]
+    endless = ("actuator", "buttons", "sim", "odometry", "hz", "bw", "delay", "watch", "log")
+    return verb in endless or words == ["up"]
 
 
 def says_something_and_ends(process: Process) -> None:

@@ -184,12 +184,31 @@ def test_a_course_needs_somebody_who_says_where_the_robot_is(
         result = ask(rig, "circle 1m")
         assert result.returncode == 1
         assert (
-            "nobody says where blind is, on /blind/odom; for a simulated robot zteleop sim does"
+            "nobody says where blind is, on /blind/odom; zteleop sim does of a simulated robot"
             in result.stderr
         )
         result = ask(rig, "drive 0.5m/s --for 200ms")
         assert (result.returncode, result.stderr) == (0, "")
         assert "nobody says where blind is: what it did was not measured" in result.stdout
+
+
+def test_a_robot_without_odometry_is_driven_by_what_it_is_told(
+    tmp_path_factory: pytest.TempPathFactory,
+) -> None:
+    with Rig(tmp_path_factory.mktemp("real"), "real") as rig:
+        rig.actuator()
+        odometry = rig.join("odometry")
+        odometry.says("says where real should be, by what its wheels are told: an estimate, which drifts")
+        result = ask(rig, "circle 1m --laps 0.3 --speed 1m/s")
+        assert (result.returncode, result.stderr) == (0, "")
+        assert numbers(result.stdout)[0] == pytest.approx(1.0, abs=0.1)
+        second = ask(rig, "odometry")
+        assert second.returncode == 1
+        assert "odometry on " in second.stderr
+        assert second.stderr.endswith("says where real is already; end that, or say --robot NAME\n")
+        assert "says where real is already" in ask(rig, "sim").stderr
+        odometry.signal(signal.SIGINT)
+        assert odometry.ends() == 130
 
 
 def test_a_course_ends_when_nobody_says_any_more_where_the_robot_is(

@@ -17,6 +17,7 @@ VERBS = {
     "actuator": "obey commands: turn them into pulses for servos and ESCs",
     "stop": "stop a robot until it is released",
     "sim": "move a simulated vehicle by the pulses of a simulated chip",
+    "odometry": "say where a robot should be that has nothing else to say so",
     "list": "list the topics of every robot on the bus",
     "echo": "print what a topic says",
     "pub": "say something on a topic",

@@ -59,7 +59,7 @@ class Motion:
         """Return where the robot is; raises BusError where nobody says so."""
         if not self._node.membership.until(lambda: self._pose, SEEN_WITHIN) or not self._pose:
             words = f"nobody says where {self._node.robot} is, on /{self._node.robot}/odom"
-            raise BusError(f"{words}; for a simulated robot zteleop sim does")
+            raise BusError(f"{words}; zteleop sim does of a simulated robot, zteleop odometry of any other")
         return self._pose
 
     def drive(self, course: Course, tell: Callable[[Trail], str], *, by_sight: bool = True) -> None:

@@ -147,11 +147,14 @@ def robot_of(topic: str, settings: Config, typed: str | None = None) -> str | No
     return found
 
 
-def join(name: str, settings: Config, patient: bool = False) -> "Node":
-    """Join the bus as a node of the robot meant; with `patient`, what is said waits for a full link."""
+def join(name: str, settings: Config, patient: bool = False, settle: bool = False) -> "Node":
+    """Join the bus as a node of the robot meant; with `patient`, what is said waits for a full link.
+
+    With `settle`, or without a robot's name, once everybody is found.
+    """
     from zteleop.bus.node import Node  # not what only looks at the bus
 
-    session = open_session(settings.bus, settle=settings.robot is None, patient=patient)
+    session = open_session(settings.bus, settle=settle or settings.robot is None, patient=patient)
     try:
         return Node(name, find_robot(session, settings), session=session)
     except BaseException:

@@ -7,6 +7,7 @@ from zteleop.bus import clock, presence
 from zteleop.bus.node import Node
 from zteleop.bus.session import Session, open_session
 from zteleop.cli import _options, _scenes
+from zteleop.cli._alone import expect_alone
 from zteleop.config import Config
 from zteleop.control.vehicles import VEHICLES, name_of
 from zteleop.errors import DeviceError
@@ -44,6 +45,7 @@ def run(arguments: argparse.Namespace) -> None:
     scene = _scenes.find(arguments.scene) if arguments.scene else None
     session = open_session(settings.bus, settle=True)
     with _join(_robot_of(settings, session), session) as node:
+        expect_alone(node)
         robot = node.robot or ""
         kind = name_of(settings.drive)
         driver = settings.driver_settings("simulated", robot)
