@@ -55,7 +55,8 @@ def says_something_and_ends(process: Process) -> None:
 
 
 def needs_odometry(text: str) -> bool:
-    return "odom" in text.lower() or find_verb(text.split()[1:])[0] in ("circle", "square", "goto")
+    verb = find_verb(text.split()[1:])[0]
+    return verb in ("circle", "square", "goto") or ("odom" in text.lower() and verb != "odometry")
 
 
 @contextmanager
