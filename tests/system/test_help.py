@@ -20,7 +20,7 @@ TYPED = re.findall(r"\| `zteleop ([^`]+)` \|", (DOCS / "shell.md").read_text())
 EXAMPLES += [(find_verb(shlex.split(text))[0], f"zteleop {text}") for text in TYPED]
 OF_ACTUATOR = "/archangel/actuator:\n  ros__parameters:\n    limits.speed: 0.5\n"
 ON_A_SCREEN = {"demo": "quit", "keyboard": "quit", "gamepad": "quit", "keys": "Ctrl-C ends"}
-ALONE = {"actuator", "chaos", "check", "demo", "keys", "neutral", "run", "schema", "up"}
+ALONE = {"actuator", "chaos", "check", "demo", "init", "keys", "neutral", "run", "schema", "up"}
 ALONE |= {f"interface {word}" for word in GROUPS["interface"]} | {"completion"}
 """verbs that need no robot that is there already, or no bus"""
 

@@ -54,6 +54,7 @@ VERBS = {
     "neutral": "bring a chip to rest with nothing else running",
     "doctor": "say what hinders zteleop on this machine",
     "completion": "print what lets your shell complete what you type",
+    "init": "write a config file, by five questions",
     "check": "check a config file",
     "schema": "write the JSON Schema of every message and of config.toml",
 }
