@@ -23,7 +23,8 @@ def test_five_questions_make_a_file_that_starts_a_robot(rig: Rig) -> None:
         ("on which channels are left and right? [0 1]", "3 3"),
         ("expected two different channels from 0 to 15, such as 0 1, found '3 3'", "3, 4"),
         ("how many m between its wheels? [20cm]", "5kg"),
-        ("expected a length such as 50cm, found '5kg'", "18cm"),
+        ("expected a length such as 50cm, found '5kg'", "30m"),
+        ("expected a length between 1cm and 10m, found 30m", "18cm"),
     ):
         terminal.shows(question)
         terminal.type(f"{answer}\r")
