@@ -1,6 +1,6 @@
 import argparse
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TypeVar
 
@@ -69,7 +69,7 @@ class Questions:
     def answers(self) -> Answers:
         """Ask; a wrong answer is told, and asked for again."""
         robot = self._ask("what is the robot called?", config.own_name(), robot_name)
-        vehicle = self._ask("what is it: car or tank?", "car", lambda said: one_of(said, VEHICLES))
+        vehicle = self._ask("what is it: car or tank?", "car", lambda said: one_of(said, WHEELS))
         driver = self._ask(
             f"which chip makes its pulses: {' or '.join(DRIVERS)}?",
             "pca9685" if I2C.exists() else "simulated",
@@ -97,7 +97,7 @@ class Questions:
                 print(f"  {error}", file=sys.stderr)
 
 
-def one_of(said: str, choices: "dict[str, T]") -> str:
+def one_of(said: str, choices: Iterable[str]) -> str:
     """Return one of some words; raises ConfigError for any other."""
     if said not in choices:
         raise ConfigError(f"expected {' or '.join(choices)}, found {said!r}; {nearest(said, choices)}")

@@ -47,12 +47,12 @@ def run(arguments: argparse.Namespace) -> None:
     with _join(_robot_of(settings, session), session) as node:
         expect_alone(node)
         robot = node.robot or ""
-        kind = name_of(settings.drive)
+        kind = arguments.vehicle or name_of(settings.drive)
         driver = settings.driver_settings("simulated", robot)
         _options.end_with_parent(arguments, node)
         node.log.info(f"moves {robot}, a simulated {kind}, by the pulses in {driver['path']}")
         node.every(TELL_AFTER)(Attendant(node, kind).look)
-        simulator.run(node, settings.drive, driver["path"], lambda line: print(line, flush=True), scene)
+        simulator.run(node, settings.drive, driver["path"], lambda line: print(line, flush=True), scene, kind)
 
 
 @contextmanager
@@ -111,7 +111,7 @@ class Attendant:
     def _compare(self, vehicle: Vehicle | None) -> None:
         """Say so where its actuator drives another kind of vehicle: its pulses mean something else here."""
         meant = ("car" if vehicle.steers else "tank") if vehicle else ""
-        if meant not in (self._meant, self._kind, ""):
+        if meant not in (self._meant, "") and (meant == "car") != (self._kind == "car"):
             words = f"the actuator of {self._node.robot} drives a {meant}, and this simulates a {self._kind}"
             self._node.log.warn(f"{words}: its pulses mean something else; start zteleop sim {meant}")
         self._meant = meant

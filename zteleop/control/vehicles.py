@@ -4,6 +4,8 @@ from typing import NamedTuple
 
 import msgspec
 
+from zteleop.control import create3
+from zteleop.control.limiter import Limits
 from zteleop.control.mixer import Ackermann, Differential, Mixer
 from zteleop.control.servo import Servo
 from zteleop.control.settings import DONKEYCAR, DriveSettings
@@ -13,17 +15,25 @@ from zteleop.errors import ConfigError
 class Built(NamedTuple):
     mixer: Mixer
     servos: dict[str, Servo]
+    limits: Limits = Limits()
 
 
+WHEELS = {"left": Servo(0), "right": Servo(1)}
 VEHICLES = {
     "car": Built(Ackermann(), DONKEYCAR),
-    "tank": Built(Differential(), {"left": Servo(0), "right": Servo(1)}),
+    "tank": Built(Differential(), WHEELS),
+    "create3": Built(
+        Differential(create3.TRACK, create3.SAFE_SPEED),
+        WHEELS,
+        Limits(turn=create3.MAX_TURN, acceleration=create3.ACCELERATION),
+    ),
 }
 
 
 def name_of(drive: DriveSettings) -> str:
-    """Return what a vehicle of this kind is called."""
-    return next(name for name, built in VEHICLES.items() if built.mixer.kind == drive.mixer.kind)
+    """Return what a vehicle is called: the one that is built so, else the first of its kind."""
+    same = [name for name, built in VEHICLES.items() if built.mixer == drive.mixer]
+    return (same or [name for name, built in VEHICLES.items() if built.mixer.kind == drive.mixer.kind])[0]
 
 
 def made_into(drive: DriveSettings, name: str) -> DriveSettings:
@@ -34,6 +44,6 @@ def made_into(drive: DriveSettings, name: str) -> DriveSettings:
     built = VEHICLES[name]
     if drive.mixer.kind == built.mixer.kind:
         return drive
-    if Built(drive.mixer, drive.servos) != VEHICLES[own := name_of(drive)]:
+    if Built(drive.mixer, drive.servos, drive.limits) != VEHICLES[own := name_of(drive)]:
         raise ConfigError(f"config.toml makes this robot a {own}, so it is no {name}; leave out {name}")
-    return msgspec.structs.replace(drive, mixer=built.mixer, servos=built.servos.copy())
+    return msgspec.structs.replace(drive, mixer=built.mixer, servos=built.servos.copy(), limits=built.limits)

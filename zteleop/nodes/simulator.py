@@ -11,8 +11,10 @@ from zteleop.control.settings import DriveSettings
 from zteleop.drivers.registers import read_pulse_us
 from zteleop.drivers.simulated import open_registers
 from zteleop.messages import Header, Odometry, Range, String
+from zteleop.nodes.create3 import Equipment
 from zteleop.sim import make_vehicle
 from zteleop.sim.body import Body
+from zteleop.sim.create3.body import Create3
 from zteleop.sim.ranges import RangeSensor
 from zteleop.sim.scene import Scene
 from zteleop.sim.world import World
@@ -32,15 +34,17 @@ def run(
     path: str,
     show: Callable[[str], None] = print,
     scene: tuple[Scene, str] | None = None,
+    kind: str = "",
 ) -> None:
     """Move a vehicle by the pulses in a register file until the node is stopped, and show how it moves.
 
-    In a scene, which comes with its text, it runs into what stands there, and says how far that is.
-    Raises ConfigError for a scene in which it does not fit.
+    In a scene, which comes with its text, it runs into what stands there, and says how far that is. Of a
+    `create3` all that such a robot has is there. Raises ConfigError for a scene in which it does not fit.
     """
-    vehicle = make_vehicle(settings.mixer, settings.servos)
-    if scene:
-        furnish(node, vehicle, *scene)
+    vehicle = Create3(settings.servos) if kind == "create3" else make_vehicle(settings.mixer, settings.servos)
+    world = furnish(node, vehicle, *scene) if scene else None
+    if isinstance(vehicle, Create3):
+        Equipment(node, vehicle, world)
     registers = open_registers(path)
     odoms = node.publisher("odom", Odometry)
     channels = [servo.channel for servo in settings.servos.values()]
@@ -74,7 +78,7 @@ def run(
     node.spin()
 
 
-def furnish(node: Node, vehicle: Body, scene: Scene, text: str) -> None:
+def furnish(node: Node, vehicle: Body, scene: Scene, text: str) -> World:
     """Put a vehicle into a scene; say what that is, what it hits, and how far it is to what stands ahead."""
     world = vehicle.room = World(scene, vehicle.discs)
     sensor, chance = RangeSensor(), Random(0)
@@ -92,6 +96,8 @@ def furnish(node: Node, vehicle: Body, scene: Scene, text: str) -> None:
         if touched and touched != told:
             node.log.warn(f"it stands at {scene.called(touched)}, and can only drive away from there")
         told = touched
+
+    return world
 
 
 def motion(vehicle: Body) -> str:

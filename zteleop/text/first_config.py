@@ -36,7 +36,7 @@ WHEELS = {"car": ("throttle", "steering"), "tank": ("left", "right")}
 
 def first_config(answers: Answers) -> str:
     """Return the text of a file: what was answered, and what is most often changed next."""
-    mixer, servos = VEHICLES[answers.vehicle]
+    mixer, servos, _ = VEHICLES[answers.vehicle]
     length = "wheelbase" if answers.vehicle == "car" else "track"
     parts = [
         f"""\

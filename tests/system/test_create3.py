@@ -1,0 +1,157 @@
+"""A simulated Create 3: the figures, buttons, bumpers, lights and notes of the real one."""
+
+import re
+from collections.abc import Iterator
+
+import pytest
+from rig import Process, Rig, hear, until
+
+from zteleop.bus.node import Node
+from zteleop.control.create3 import MAX_TURN, SAFE_SPEED, WHEEL_RADIUS
+from zteleop.messages import (
+    BatteryState,
+    HazardDetectionVector,
+    InterfaceButtons,
+    Odometry,
+    StopStatus,
+    WheelTicks,
+    WheelVels,
+)
+
+ROOM = """
+[[walls]]
+points = [[1.0, -3.0], [1.0, 3.0]]
+"""
+BACKUP_LIMIT, BUMP = 0, 1
+REST = (368, 368)
+"""ticks, right and left: 1500 us"""
+
+
+@pytest.fixture(scope="module")
+def rig(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Rig]:
+    with Rig(tmp_path_factory.mktemp("create3")) as bench:
+        (bench.folder / "room.toml").write_text(ROOM)
+        bench.actuator("--vehicle", "create3")
+        yield bench
+
+
+@pytest.fixture
+def sim(rig: Rig) -> Iterator[Process]:
+    """A robot that was just switched on, a metre before a wall."""
+    process = rig.join("sim", "create3", "--scene", "room.toml")
+    process.says("moves bench, a simulated create3, by the pulses in ")
+    process.says("is heard")
+    yield process
+    process.close()
+
+
+@pytest.fixture(scope="module")
+def node(rig: Rig) -> Node:
+    return rig.node("listener")
+
+
+def ask(rig: Rig, *words: str) -> str:
+    verb, *rest = words
+    result = rig.result(*verb.split(), *rig.bus_options(), *rest)
+    assert result.returncode == 0, result.stderr
+    return str(result.stdout)
+
+
+@pytest.mark.parametrize(
+    ("asked", "speed", "turn"),
+    [
+        ("0.1m/s", 0.1, 0.0),
+        ("0.7m/s", SAFE_SPEED, 0.0),
+        ("5.5rad/s", 0.0, MAX_TURN),
+    ],
+)
+@pytest.mark.usefixtures("sim")
+def test_it_is_as_fast_as_it_is_told_up_to_its_own_bounds(
+    rig: Rig, node: Node, asked: str, speed: float, turn: float
+) -> None:
+    odoms = node.subscription("odom", Odometry)
+    drive = rig.join("drive", asked, "--for", "2s")
+    hear(
+        odoms,
+        lambda odom: (
+            (odom.twist.twist.linear.x, odom.twist.twist.angular.z) == pytest.approx((speed, turn), abs=0.01)
+        ),
+        f"{speed} m/s and {turn} rad/s",
+    )
+    assert drive.ends() == 0
+
+
+@pytest.mark.usefixtures("sim")
+def test_what_is_too_fast_keeps_its_radius(rig: Rig) -> None:
+    said = ask(rig, "drive", "0.3m/s", "0.5rad/s", "--for", "3s")
+    circle = re.search(r"on a circle of (\d\.\d\d) m", said)
+    assert circle
+    assert float(circle[1]) == pytest.approx(0.6, abs=0.02)
+
+
+@pytest.mark.usefixtures("sim")
+def test_a_button_is_pressed_by_whoever_has_no_finger_on_it(rig: Rig, node: Node) -> None:
+    presses = node.subscription("interface_buttons", InterfaceButtons)
+    held = rig.join("buttons")
+    held.says("idle: nobody drives")
+    said = ask(rig, "service call", "button_1", "std_srvs/srv/SetBool", "{data: true}")
+    assert "success=True, message='button_1 is down'" in said
+    hear(presses, lambda seen: seen.button_1.is_pressed and not seen.button_2.is_pressed, "the left one down")
+    first = hear(
+        presses, lambda seen: seen.button_1.last_pressed_duration.sec >= 1, "it is held for a second"
+    )
+    assert first.button_1.last_start_pressed_time.sec > 0
+    again = ask(rig, "service call", "button_1", "std_srvs/srv/SetBool", "{data: true}")
+    assert "success=False, message='button_1 is down already'" in again
+    ask(rig, "service call", "button_1", "std_srvs/srv/SetBool", "{data: false}")
+    up = hear(presses, lambda seen: not seen.button_1.is_pressed, "it is up")
+    assert up.button_1.last_pressed_duration.sec >= 1
+    until(lambda: rig.ticks == REST, "rest")
+    held.close()
+
+
+@pytest.mark.usefixtures("sim")
+def test_what_it_runs_into_is_felt_by_the_bumper_that_is_there(rig: Rig, node: Node) -> None:
+    hazards = node.subscription("hazard_detection", HazardDetectionVector)
+    stops = node.subscription("stop_status", StopStatus)
+    drive = rig.join("drive", "0.3m/s", "--for", "4s")
+    felt = hear(hazards, lambda seen: seen.detections, "a bump")
+    assert [(one.type, one.header.frame_id) for one in felt.detections] == [(BUMP, "bump_front_center")]
+    drive.ends()
+    hear(stops, lambda seen: seen.is_stopped, "it stands")
+
+
+@pytest.mark.usefixtures("sim")
+def test_it_does_not_reverse_onto_floor_that_it_never_saw(rig: Rig, node: Node) -> None:
+    hazards = node.subscription("hazard_detection", HazardDetectionVector)
+    drive = rig.join("drive", "-0.2m/s", "--for", "1s")
+    felt = hear(hazards, lambda seen: seen.detections, "the limit")
+    assert felt.detections[0].type == BACKUP_LIMIT
+    assert drive.ends() == 0
+    assert drive.lines[-1].startswith("went 0.00 m")
+
+
+@pytest.mark.usefixtures("sim")
+def test_its_wheels_and_its_battery_say_what_they_do(rig: Rig, node: Node) -> None:
+    speeds, ticks = node.subscription("wheel_vels", WheelVels), node.subscription("wheel_ticks", WheelTicks)
+    batteries = node.subscription("battery_state", BatteryState)
+    drive = rig.join("drive", "0.2m/s", "--for", "2s")
+    turning = pytest.approx(0.2 / WHEEL_RADIUS, abs=0.1)
+    hear(speeds, lambda seen: (seen.velocity_left, seen.velocity_right) == (turning, turning), "0.2 m/s")
+    assert drive.ends() == 0
+    hear(ticks, lambda seen: seen.ticks_left > 500 and seen.ticks_left == seen.ticks_right, "0.3 m or so")
+    battery = hear(batteries, lambda seen: seen.percentage < 1.0, "what was drawn")
+    assert 16.0 < battery.voltage < 16.8
+    assert len(battery.cell_voltage) == 4
+
+
+def test_notes_and_lights_are_told(rig: Rig, sim: Process) -> None:
+    note = "{frequency: 440, max_runtime: {sec: 0, nanosec: 300000000}}"
+    ask(rig, "pub", "cmd_audio", "AudioNoteVector", f"{{notes: [{note}], append: false}}", "--once")
+    sim.says("plays 440 Hz")
+    led = "{red: 255, green: 0, blue: 0}"
+    leds = f"{{leds: [{', '.join([led] * 6)}], override_system: true}}"
+    ask(rig, "pub", "cmd_lightring", "LightringLeds", leds, "--once")
+    sim.says("its lights are 255 0 0, 255 0 0")
+    ask(rig, "pub", "cmd_lightring", "LightringLeds", leds.replace("true", "false"), "--once")
+    sim.says("its lights are its own again")

@@ -1,0 +1,46 @@
+"""An iRobot Create 3 as its wheels move it: softly, and backwards no farther than it knows the floor."""
+
+from collections.abc import Mapping
+
+from zteleop.control.create3 import ACCELERATION, SAFE_SPEED
+from zteleop.control.servo import Servo
+from zteleop.sim.body import Body, Disc, Pulses
+from zteleop.sim.create3.backup import BackupLimit
+from zteleop.sim.create3.hazards import BACKUP_LIMIT, Hazard
+from zteleop.sim.create3.wheels import STILL, Wheels
+from zteleop.sim.esc import fraction
+
+RADIUS = 0.171
+"""m"""
+
+
+class Create3(Body):
+    """A pulse asks a wheel for a share of what its safety allows; without one, or at rest, it brakes."""
+
+    def __init__(self, servos: Mapping[str, Servo]) -> None:
+        super().__init__()
+        self.discs = (Disc(0.0, RADIUS),)
+        self.wheels = Wheels()
+        self.backup = BackupLimit()
+        self._servos = servos["left"], servos["right"]
+
+    def move(self, pulse_us: Pulses, dt: float) -> None:
+        """Turn both wheels towards what their pulses ask for."""
+        shares = [fraction(servo, pulse_us.get(servo.channel)) or 0.0 for servo in self._servos]
+        left, right = (share * SAFE_SPEED for share in shares)
+        back = left + right < 0
+        if back:
+            self.backup.reverse()
+        blocked = back and self.backup.is_reached
+        self.wheels.turn(STILL if blocked else (left, right), ACCELERATION, dt)
+        self.speed, self.yaw_rate = self.wheels.speed, self.wheels.yaw_rate
+        self.backup.roll(self.speed * dt)
+
+    def halt(self) -> None:
+        super().halt()
+        self.wheels.halt()
+
+    @property
+    def hazards(self) -> list[Hazard]:
+        """What hinders it by itself: it was told to reverse farther than it may."""
+        return [Hazard(BACKUP_LIMIT, "base_link")] if self.backup.ignored else []
