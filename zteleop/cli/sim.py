@@ -13,6 +13,8 @@ from zteleop.control.vehicles import VEHICLES, name_of
 from zteleop.errors import DeviceError
 from zteleop.messages import Odometry, Vehicle
 from zteleop.nodes import simulator
+from zteleop.nodes.simulator import Simulated
+from zteleop.sim.noise import LEVELS
 
 EXAMPLES = (
     "zteleop sim",
@@ -37,12 +39,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--scene", metavar="NAME", help=f"where it drives: {', '.join(_scenes.names())}, or a file"
     )
+    parser.add_argument(
+        "--noise",
+        choices=[*LEVELS],
+        default="none",
+        help="how wrong its odometry and its range are (default: none)",
+    )
+    parser.add_argument("--seed", metavar="N", type=int, default=0, help="of the noise")
     _options.add_parent(parser)
 
 
 def run(arguments: argparse.Namespace) -> None:
     settings = _options.with_vehicle(arguments, _options.load(arguments))
-    scene = _scenes.find(arguments.scene) if arguments.scene else None
+    scene, text = _scenes.find(arguments.scene) if arguments.scene else (None, "")
     session = open_session(settings.bus, settle=True)
     with _join(_robot_of(settings, session), session) as node:
         expect_alone(node)
@@ -52,7 +61,8 @@ def run(arguments: argparse.Namespace) -> None:
         _options.end_with_parent(arguments, node)
         node.log.info(f"moves {robot}, a simulated {kind}, by the pulses in {driver['path']}")
         node.every(TELL_AFTER)(Attendant(node, kind).look)
-        simulator.run(node, settings.drive, driver["path"], lambda line: print(line, flush=True), scene, kind)
+        simulated = Simulated(kind, scene, text, LEVELS[arguments.noise], arguments.seed)
+        simulator.run(node, settings.drive, driver["path"], lambda line: print(line, flush=True), simulated)
 
 
 @contextmanager

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from math import degrees
 from random import Random
+from typing import NamedTuple
 
 from zteleop.bus import clock
 from zteleop.bus.node import Node
@@ -15,6 +16,8 @@ from zteleop.nodes.create3 import Equipment
 from zteleop.sim import make_vehicle
 from zteleop.sim.body import Body
 from zteleop.sim.create3.body import Create3
+from zteleop.sim.noise import NONE, Noise
+from zteleop.sim.odometer import Odometer
 from zteleop.sim.ranges import RangeSensor
 from zteleop.sim.scene import Scene
 from zteleop.sim.world import World
@@ -28,21 +31,34 @@ STANDS_BELOW = 0.001
 """m between two looks"""
 
 
+class Simulated(NamedTuple):
+    """What is simulated: of a `create3` all that such a robot has; and where, if there is a scene."""
+
+    kind: str = ""
+    scene: Scene | None = None
+    text: str = ""
+    noise: Noise = NONE
+    seed: int = 0
+
+
 def run(
     node: Node,
     settings: DriveSettings,
     path: str,
     show: Callable[[str], None] = print,
-    scene: tuple[Scene, str] | None = None,
-    kind: str = "",
+    simulated: Simulated | None = None,
 ) -> None:
     """Move a vehicle by the pulses in a register file until the node is stopped, and show how it moves.
 
-    In a scene, which comes with its text, it runs into what stands there, and says how far that is. Of a
-    `create3` all that such a robot has is there. Raises ConfigError for a scene in which it does not fit.
+    Raises ConfigError for a scene in which it does not fit.
     """
-    vehicle = Create3(settings.servos) if kind == "create3" else make_vehicle(settings.mixer, settings.servos)
-    world = furnish(node, vehicle, *scene) if scene else None
+    simulated = simulated or Simulated()
+    if simulated.kind == "create3":
+        vehicle: Body = Create3(settings.servos)
+    else:
+        vehicle = make_vehicle(settings.mixer, settings.servos)
+    vehicle.odometer = Odometer(simulated.noise, Random(simulated.seed))
+    world = furnish(node, vehicle, simulated) if simulated.scene else None
     if isinstance(vehicle, Create3):
         Equipment(node, vehicle, world)
     registers = open_registers(path)
@@ -78,20 +94,22 @@ def run(
     node.spin()
 
 
-def furnish(node: Node, vehicle: Body, scene: Scene, text: str) -> World:
-    """Put a vehicle into a scene; say what that is, what it hits, and how far it is to what stands ahead."""
+def furnish(node: Node, vehicle: Body, simulated: Simulated) -> World:
+    """Put a vehicle into its scene; say what that is, what it hits, and how far it is to what is ahead."""
+    scene = simulated.scene or Scene()
     world = vehicle.room = World(scene, vehicle.discs)
-    sensor, chance = RangeSensor(), Random(0)
+    sensor, chance = RangeSensor(), Random(simulated.seed)
     scenes, ranges = node.publisher("scene", String), node.publisher("range", Range)
     told = ""
 
-    node.every(TOPICS["scene"].every)(lambda: scenes.publish(String(text)))
+    node.every(TOPICS["scene"].every)(lambda: scenes.publish(String(simulated.text)))
 
     @node.every(TOPICS["range"].every)
     def look() -> None:
         nonlocal told
         ahead = sensor.measure(world, world.nose)
-        ranges.publish(sensor.state(Header(clock.stamp(), "range"), ahead, chance))
+        header = Header(clock.stamp(), "range")
+        ranges.publish(sensor.state(header, ahead, chance, simulated.noise.range))
         touched = world.contact.name if world.contact else ""
         if touched and touched != told:
             node.log.warn(f"it stands at {scene.called(touched)}, and can only drive away from there")

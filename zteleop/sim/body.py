@@ -9,14 +9,12 @@ from zteleop.control.motion.pose import Pose2D
 from zteleop.messages import (
     Header,
     Odometry,
-    Point,
-    Pose,
     PoseWithCovariance,
-    Quaternion,
     Time,
     Twist,
     TwistWithCovariance,
 )
+from zteleop.sim.odometer import Odometer
 
 Pulses = Mapping[int, float | None]
 """Microseconds by channel; None, or no entry, where no pulse leaves the chip."""
@@ -54,6 +52,8 @@ class Body(ABC):
         self.yaw_rate = 0.0
         self.distance = 0.0
         """m rolled since the start, back and forth."""
+        self.odometer = Odometer()
+        """where it believes it is, by its wheels"""
 
     @abstractmethod
     def move(self, pulse_us: Pulses, dt: float) -> None:
@@ -78,14 +78,12 @@ class Body(ABC):
         return Pose2D(self.x, self.y, self.heading)
 
     def odometry(self, stamp: Time) -> Odometry:
-        """Return pose and twist, in odom and base_link."""
-        turned = Quaternion(0.0, 0.0, sin(self.heading / 2), cos(self.heading / 2))
-        pose = Pose(Point(self.x, self.y, 0.0), turned)
+        """Return pose and twist as its wheels tell them, in odom and base_link."""
         twist = Twist.planar(self.speed, self.yaw_rate)
         return Odometry(
             Header(stamp, "odom"),
             "base_link",
-            PoseWithCovariance(pose, [0.0] * 36),
+            PoseWithCovariance(self.odometer.pose.message(), self.odometer.covariance),
             TwistWithCovariance(twist, [0.0] * 36),
         )
 
@@ -99,3 +97,4 @@ class Body(ABC):
             return
         self.x, self.y, self.heading = x, y, heading
         self.distance += abs(way)
+        self.odometer.add(way, turn)

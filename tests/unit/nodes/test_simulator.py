@@ -8,7 +8,9 @@ from zteleop.control.settings import DriveSettings
 from zteleop.drivers import open_driver
 from zteleop.drivers.registers import read_pulse_us
 from zteleop.nodes import simulator
-from zteleop.nodes.simulator import AT_REST, PERIOD, TELL_EVERY
+from zteleop.nodes.simulator import AT_REST, PERIOD, TELL_EVERY, Simulated
+from zteleop.sim.noise import LEVELS
+from zteleop.sim.scene import Scene, Wall
 from zteleop.testing import Clock, FakeNode
 
 
@@ -62,3 +64,19 @@ def test_a_car_that_stands_is_looked_at_less_often(
         assert len(looks) // per_look == pytest.approx(0.5 / PERIOD, abs=2)
     finally:
         driver.close()
+
+
+def test_wheels_that_err_say_how_wrong_they_may_be(node: FakeNode, clock: Clock, tmp_path: Path) -> None:
+    path = str(tmp_path / "chip")
+    driver = open_driver("simulated", {"path": path})
+    try:
+        driver.start({0: 2040.0, 1: 1530.0})
+        simulated = Simulated(noise=LEVELS["high"], scene=Scene(walls=[Wall([(9.0, -1.0), (9.0, 1.0)])]))
+        simulator.run(node, DriveSettings(), path, print, simulated)
+        node.live(1.0)
+        node.loop.run(TOPICS["range"].every)
+    finally:
+        driver.close()
+    covariance = node.said["odom"].messages[-1].pose.covariance
+    assert covariance[0] > 0
+    assert node.said["range"].messages[-1].variance > 0

@@ -4,6 +4,7 @@ import pytest
 
 from zteleop.messages import Time
 from zteleop.sim.body import Body, Pulses
+from zteleop.sim.noise import LEVELS
 
 
 class Rolling(Body):
@@ -65,9 +66,19 @@ def test_distance_counts_back_and_forth() -> None:
     assert body.distance == pytest.approx(1.0)
 
 
+def test_wheels_that_err_say_another_place_than_it_is_at_and_how_wrong_that_may_be() -> None:
+    body = Rolling(speed=0.5, yaw_rate=0.2)
+    body.step({}, 1.0)
+    assert body.odometer.pose == pytest.approx(body.pose), "without noise they do not"
+    body.odometer.noise = LEVELS["high"]
+    body.step({}, 1.0)
+    assert body.odometer.pose != pytest.approx(body.pose, abs=1e-4)
+    assert body.odometry(Time(3, 4)).pose.covariance[0] > 0
+
+
 def test_odometry_says_pose_and_twist_as_ros_does() -> None:
     body = Rolling(speed=0.5, yaw_rate=0.2)
-    body.x, body.y, body.heading = 1.0, 2.0, 2.0
+    body.odometer.x, body.odometer.y, body.odometer.heading = 1.0, 2.0, 2.0
     odometry = body.odometry(Time(3, 4))
     assert (odometry.header.frame_id, odometry.child_frame_id) == ("odom", "base_link")
     assert odometry.header.stamp == Time(3, 4)
