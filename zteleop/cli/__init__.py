@@ -59,6 +59,15 @@ VERBS = {
     "schema": "write the JSON Schema of every message and of config.toml",
 }
 
+SECTIONS = {
+    "demo": "drive",
+    "actuator": "the robot",
+    "list": "see and say what is on the bus",
+    "why": "understand what it does",
+    "run": "set up",
+}
+"""the verbs before which the list of them has a heading"""
+
 GROUPS = {
     "topic": ("list", "echo", "pub", "hz", "bw", "delay", "watch", "info", "type", "find"),
     "node": ("list", "info"),
@@ -163,8 +172,14 @@ def _dispatch(arguments: list[str]) -> int:
 
 
 def _table(verbs: dict[str, str]) -> str:
+    """Return a line for each verb, and where a section of all of them begins its name."""
     width = max(map(len, verbs))
-    return "\n".join(f"  {verb:{width}}  {text}" for verb, text in verbs.items())
+    lines: list[str] = []
+    for verb, text in verbs.items():
+        if verb in SECTIONS and len(verbs) == len(VERBS):
+            lines += [*([""] if lines else []), f"{SECTIONS[verb]}:"]
+        lines.append(f"  {verb:{width}}  {text}")
+    return "\n".join(lines)
 
 
 def _grouped_verb(group: str, word: str) -> str:

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import zteleop.cli
-from zteleop.cli import GROUPS, VERBS, file_of, main
+from zteleop.cli import GROUPS, SECTIONS, VERBS, file_of, main
 
 FILES = {path.stem for path in Path(zteleop.cli.__file__).parent.glob("*.py")}
 
@@ -141,3 +141,16 @@ def test_a_reader_that_left_is_no_error_to_talk_about(argument: str, deaf: io.Te
     with redirect_stdout(deaf):
         main([argument])
     deaf.close()
+
+
+def test_the_list_of_all_verbs_has_headings_and_that_of_a_group_none(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    main([])
+    lines = capsys.readouterr().out.splitlines()
+    headings = [line.rstrip(":") for line in lines if line.endswith(":") and not line.startswith(" ")]
+    assert headings == [*SECTIONS.values()]
+    assert set(SECTIONS) <= set(VERBS)
+    assert [line.split("  ")[1] for line in lines if line.startswith("  ")] == [*VERBS]
+    main(["node"])
+    assert not [line for line in capsys.readouterr().out.splitlines() if line.endswith(":")]
