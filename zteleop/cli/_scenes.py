@@ -14,8 +14,8 @@ def names() -> list[str]:
     return sorted(Path(file.name).stem for file in FOLDER.iterdir() if file.name.endswith(".toml"))
 
 
-def find(name: str) -> tuple[Scene, str]:
-    """Return a scene and its text, of those that come along or of a file.
+def find(name: str) -> Scene:
+    """Return a scene, of those that come along or of a file.
 
     Raises ConfigError for a name that is none, and for a file that is no scene.
     """
@@ -30,6 +30,6 @@ def find(name: str) -> tuple[Scene, str]:
     else:
         raise ConfigError(f"no scene {name!r}, nor a file such as ./room.toml; {nearest(name, names())}")
     try:
-        return parse(text), text.decode()
+        return parse(text)
     except ConfigError as error:
         raise ConfigError(f"{name}: {error}") from None

@@ -24,6 +24,7 @@ from zteleop.messages import Odometry
 from zteleop.nodes.teleop import Teleop
 from zteleop.screen.floor import marks
 from zteleop.screen.view import View
+from zteleop.sim.plan import plan
 
 EXAMPLES = (
     "zteleop demo",
@@ -52,7 +53,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Start actuator and simulator as processes of their own; drive them from here."""
     screen = sys.stdin.isatty() and sys.stdout.isatty()
     place = arguments.scene or (SCENE if screen else OPEN)
-    scene, _ = _scenes.find(place)
+    scene = _scenes.find(place)
     robot = f"demo-{secrets.token_hex(2)}"
     endpoint = f"tcp/127.0.0.1:{_free_port()}"
     with ExitStack() as stack:
@@ -80,7 +81,7 @@ def run(arguments: argparse.Namespace) -> int:
         await_robot(node, children, Path(log.name))
         if screen:
             trip = Trip()
-            drive = drive_with_keys(node, Config(bus=bus), arguments.drive, marks(scene), trip)
+            drive = drive_with_keys(node, Config(bus=bus), arguments.drive, marks(plan(scene)), trip)
             ending = farewell(trip, drive)
         else:
             return drive_figure(node)

@@ -51,7 +51,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> None:
     settings = _options.with_vehicle(arguments, _options.load(arguments))
-    scene, text = _scenes.find(arguments.scene) if arguments.scene else (None, "")
+    scene = _scenes.find(arguments.scene) if arguments.scene else None
     session = open_session(settings.bus, settle=True)
     with _join(_robot_of(settings, session), session) as node:
         expect_alone(node)
@@ -61,7 +61,7 @@ def run(arguments: argparse.Namespace) -> None:
         _options.end_with_parent(arguments, node)
         node.log.info(f"moves {robot}, a simulated {kind}, by the pulses in {driver['path']}")
         node.every(TELL_AFTER)(Attendant(node, kind).look)
-        simulated = Simulated(kind, scene, text, LEVELS[arguments.noise], arguments.seed)
+        simulated = Simulated(kind, scene, LEVELS[arguments.noise], arguments.seed)
         simulator.run(node, settings.drive, driver["path"], lambda line: print(line, flush=True), simulated)
 
 

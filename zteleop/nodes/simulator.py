@@ -18,6 +18,7 @@ from zteleop.sim.body import Body
 from zteleop.sim.create3.body import Create3
 from zteleop.sim.noise import NONE, Noise
 from zteleop.sim.odometer import Odometer
+from zteleop.sim.plan import plan, to_text
 from zteleop.sim.ranges import RangeSensor
 from zteleop.sim.scene import Scene
 from zteleop.sim.world import World
@@ -36,7 +37,6 @@ class Simulated(NamedTuple):
 
     kind: str = ""
     scene: Scene | None = None
-    text: str = ""
     noise: Noise = NONE
     seed: int = 0
 
@@ -99,10 +99,11 @@ def furnish(node: Node, vehicle: Body, simulated: Simulated) -> World:
     scene = simulated.scene or Scene()
     world = vehicle.room = World(scene, vehicle.discs)
     sensor, chance = RangeSensor(), Random(simulated.seed)
+    text = to_text(plan(scene))
     scenes, ranges = node.publisher("scene", String), node.publisher("range", Range)
     told = ""
 
-    node.every(TOPICS["scene"].every)(lambda: scenes.publish(String(simulated.text)))
+    node.every(TOPICS["scene"].every)(lambda: scenes.publish(String(text)))
 
     @node.every(TOPICS["range"].every)
     def look() -> None:

@@ -32,7 +32,11 @@ class Canvas:
             self._styles[row][column] = style
 
     def line(self, start: Dot, end: Dot, mark: str = "", style: str = "") -> None:
-        """Set the dots from one place to another."""
+        """Set the dots from one place to another, as far as they lie in the picture."""
+        seen = clip(start, end, 2 * self.columns, 4 * self.rows)
+        if seen is None:
+            return
+        start, end = seen
         (x, y), (right, down) = start, (end[0] - start[0], end[1] - start[1])
         steps = max(1, round(max(abs(right), abs(down))))
         for step in range(steps + 1):
@@ -87,3 +91,23 @@ def slope(right: float, down: float) -> str:
     if abs(down) < abs(right) / 2:
         return "-"
     return "\\" if right * down > 0 else "/"
+
+
+def clip(start: Dot, end: Dot, across: float, down: float) -> tuple[Dot, Dot] | None:
+    """Return the part of a line that lies from 0, 0 to `across`, `down`; None where none does.
+
+    Y. Liang and B. Barsky, A New Concept and Method for Line Clipping, 1984.
+    """
+    (x, y), (dx, dy) = start, (end[0] - start[0], end[1] - start[1])
+    first, last = 0.0, 1.0
+    for way, room in ((-dx, x), (dx, across - x), (-dy, y), (dy, down - y)):
+        if way == 0:
+            if room < 0:
+                return None
+        elif way < 0:
+            first = max(first, room / way)
+        else:
+            last = min(last, room / way)
+    if first > last:
+        return None
+    return (x + first * dx, y + first * dy), (x + last * dx, y + last * dy)

@@ -69,6 +69,11 @@ class Body(ABC):
             self.move(pulse_us, dt / substeps)
             self._roll(dt / substeps)
 
+    def went(self, way: float, turn: float, dt: float) -> None:
+        """Note that it went some m and turned some rad in some s: nothing was in its way."""
+        self.distance += abs(way)
+        self.odometer.add(way, turn)
+
     def halt(self) -> None:
         """Stand, as what runs into something does; it may drive on at once."""
         self.speed = self.yaw_rate = 0.0
@@ -96,5 +101,4 @@ class Body(ABC):
             self.halt()
             return
         self.x, self.y, self.heading = x, y, heading
-        self.distance += abs(way)
-        self.odometer.add(way, turn)
+        self.went(way, turn, dt)

@@ -12,6 +12,8 @@ from zteleop.sim.esc import fraction
 
 RADIUS = 0.171
 """m"""
+ROUNDING = 0.005
+"""of a wheel's full speed: half a tick of a chip at 60 Hz is 2 us of 500"""
 
 
 class Create3(Body):
@@ -26,19 +28,27 @@ class Create3(Body):
 
     def move(self, pulse_us: Pulses, dt: float) -> None:
         """Turn both wheels towards what their pulses ask for."""
-        shares = [fraction(servo, pulse_us.get(servo.channel)) or 0.0 for servo in self._servos]
-        left, right = (share * SAFE_SPEED for share in shares)
-        back = left + right < 0
+        left, right = (SAFE_SPEED * self._share(servo, pulse_us) for servo in self._servos)
+        back = left + right < -2 * ROUNDING * SAFE_SPEED
         if back:
             self.backup.reverse()
         blocked = back and self.backup.is_reached
         self.wheels.turn(STILL if blocked else (left, right), ACCELERATION, dt)
         self.speed, self.yaw_rate = self.wheels.speed, self.wheels.yaw_rate
-        self.backup.roll(self.speed * dt)
+
+    def went(self, way: float, turn: float, dt: float) -> None:
+        super().went(way, turn, dt)
+        self.wheels.roll(dt)
+        self.backup.roll(way)
 
     def halt(self) -> None:
         super().halt()
         self.wheels.halt()
+
+    def _share(self, servo: Servo, pulse_us: Pulses) -> float:
+        """Return what a pulse asks for, -1 to 1; nothing where only a chip's rounding makes it any."""
+        share = fraction(servo, pulse_us.get(servo.channel)) or 0.0
+        return share if abs(share) > ROUNDING else 0.0
 
     @property
     def hazards(self) -> list[Hazard]:

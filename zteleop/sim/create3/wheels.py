@@ -60,7 +60,7 @@ class Wheels:
         self.speeds = STILL
 
     def turn(self, target: Pair, acceleration: float, dt: float) -> None:
-        """Go towards other speeds for `dt` s, both wheels by one factor, and roll."""
+        """Go towards other speeds for `dt` s, both wheels by one factor."""
         changes = [to - now for to, now in zip(target, self.speeds, strict=True)]
         most = max(map(abs, changes))
         if most <= acceleration * dt:
@@ -69,5 +69,8 @@ class Wheels:
             share = acceleration * dt / most
             left, right = (now + share * by for now, by in zip(self.speeds, changes, strict=True))
             self.speeds = left, right
+
+    def roll(self, dt: float) -> None:
+        """Roll for `dt` s, as nothing was in the way."""
         left, right = (way + speed * dt for way, speed in zip(self.rolled, self.speeds, strict=True))
         self.rolled = left, right

@@ -78,15 +78,17 @@ def test_a_turn_of_a_wheel_is_508_8_ticks() -> None:
     wheels = Wheels()
     wheels.turn((0.2, -0.2), 1000.0, 0.01)
     assert wheels.turning == pytest.approx((5.594, -5.594), abs=1e-3)
-    for _ in range(99):
-        wheels.turn((0.2, -0.2), 1000.0, 0.01)
+    for _ in range(100):
+        wheels.roll(0.01)
     assert wheels.ticks == (453, -453)  # 0.2 m of 0.2246 m
 
 
 def test_a_wheel_that_halts_counts_no_further() -> None:
     wheels = Wheels()
     wheels.turn((0.2, 0.2), 1000.0, 1.0)
+    wheels.roll(1.0)
     wheels.halt()
     assert (wheels.speed, wheels.yaw_rate) == (0.0, 0.0)
     wheels.turn(STILL, 0.9, 1.0)
+    wheels.roll(1.0)
     assert wheels.ticks == (453, 453)
