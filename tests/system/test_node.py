@@ -135,6 +135,15 @@ def test_who_is_slow_may_hear_the_newest_alone(rig: Rig, node: Node) -> None:
     assert slow.text.count("heard") <= 3, "one may have been on its way"
 
 
+def test_a_loop_over_messages_ends_with_its_node_whatever_its_body_was_at(rig: Rig, node: Node) -> None:
+    short = rig.node("short")
+    notes = iter(short.subscription("short", String))
+    say(node, "short", "one")
+    assert next(notes) == String("one")
+    short.close()
+    assert list(notes) == []
+
+
 @pytest.mark.parametrize(
     "hail",
     [

@@ -29,5 +29,5 @@ def test_a_newcomer_drives_the_circle_and_presses_a_button(
         assert radius
         assert float(radius[1]) == pytest.approx(0.5, abs=0.02)
         assert "button_1 is down" in rig.result(*PRESS, *where).stdout
-        rig.run(*ECHO, *where).says("true")
+        rig.run(*ECHO, *where).says("True")
         assert "it stands at" not in sim.text, "nothing is in the way of that circle"

@@ -207,7 +207,7 @@ def test_a_second_simulation_of_a_robot_is_refused(rig: Rig) -> None:
 def test_a_simulation_of_another_vehicle_than_is_driven_is_said_to_be_one(rig: Rig) -> None:
     tank = rig.join("sim", "tank")
     tank.says("moves bench, a simulated tank, by the pulses in ")
-    tank.says("the actuator of bench drives a car, and this simulates a tank: its pulses mean something else")
+    tank.says("its pulses mean something else: that one steers, and this one turns by its wheels")
     tank.signal(signal.SIGINT)
     assert tank.ends() == 130
 

@@ -182,7 +182,10 @@ class ZenohRing:
             raise EOFError(str(error)) from None
 
     def try_recv(self) -> Sample | None:
-        sample = self._subscriber.try_recv()
+        try:
+            sample = self._subscriber.try_recv()
+        except zenoh.ZError:  # it is closed, which `recv` tells
+            return None
         return None if sample is None else to_sample(sample)
 
     def undeclare(self) -> None:

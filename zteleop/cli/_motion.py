@@ -25,6 +25,8 @@ SILENT = 1.0
 """s without a word of a robot's, after which nobody drives it on"""
 SEEN_WITHIN = 2.0
 """s to wait for the first odometry"""
+JUMP, FASTEST = 0.3, 5.0
+"""m, and m more for each s since it was last seen, that no robot moves between two looks"""
 STANDS = 0.5
 """s after the last command in which it comes to rest, and is still looked at"""
 
@@ -45,6 +47,8 @@ class Motion:
         self._began = clock.now()
         self._lost = clock.now()
         self._why = ""
+        self._anew = False
+        """Its odometry has begun anew, or was put elsewhere: what it was driven by is no more."""
         node.subscription("odom", Odometry, self._see)
 
     @property
@@ -115,6 +119,8 @@ class Motion:
             return self._publisher.refused or ("it does not obey" if waited else "")
         if now - outcome.heard_at > SILENT:
             return f"{robot} says nothing any more"
+        if self._anew and by_sight:
+            return f"where {robot} is was counted anew; say it again"
         if now - self._seen > SILENT:
             return f"nobody says any more where {robot} is" if by_sight else ""
         if self._trail and self._progress.is_stuck(self._trail, now):
@@ -122,8 +128,12 @@ class Motion:
         return ""
 
     def _see(self, received: Received[Odometry]) -> None:
-        self._pose, self._seen = pose_of(received.message), clock.now()
-        self._trail.add(self._pose, self._seen)
+        now, pose = clock.now(), pose_of(received.message)
+        if self._pose and self._pose.distance(pose.x, pose.y) > JUMP + FASTEST * (now - self._seen):
+            self._anew = True
+            return
+        self._pose, self._seen = pose, now
+        self._trail.add(pose, now)
 
 
 def add_figure(parser: argparse.ArgumentParser) -> None:

@@ -11,7 +11,7 @@ from zteleop.control.settings import DriveSettings
 from zteleop.drivers import DRIVERS, open_driver
 from zteleop.drivers.registers import longest_us
 from zteleop.errors import ConfigError
-from zteleop.machine import changes
+from zteleop.machine.changes import Changes
 from zteleop.processes import watchdog
 
 EXAMPLES = (
@@ -43,6 +43,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Watch over a robot until told to end."""
+    file = arguments.config or config.found()
+    changes = Changes(file) if file else None
     settings = _options.with_vehicle(arguments, _options.load(arguments, listens=True))
     robot = settings.robot or config.own_name()
     name = arguments.driver or settings.driver
@@ -57,14 +59,14 @@ def run(arguments: argparse.Namespace) -> int:
         drive=drive,
         journal=arguments.journal or settings.journal,
     )
-    return watchdog.run(tuned, hand, lambda node: _joined(arguments, node))
+    return watchdog.run(tuned, hand, lambda node: _joined(arguments, node, changes))
 
 
-def _joined(arguments: argparse.Namespace, node: Node) -> None:
+def _joined(arguments: argparse.Namespace, node: Node, changes: Changes | None) -> None:
     _options.end_with_parent(arguments, node)
-    if path := arguments.config or config.found():
+    if changes:
         loop, log = node.membership.loop, node.log
-        changes.watch(path, lambda words: loop.call_soon(lambda: log.warn(words)))
+        changes.watch(lambda words: loop.call_soon(lambda: log.warn(words)))
 
 
 def _tuned(settings: Config, arguments: argparse.Namespace, tick_us: float) -> DriveSettings:

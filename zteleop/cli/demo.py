@@ -12,10 +12,11 @@ from pathlib import Path
 from zteleop.bus import clock
 from zteleop.bus.node import Node
 from zteleop.bus.settings import SAME_MACHINE_DOOR, BusSettings
-from zteleop.cli import _options, _scenes
+from zteleop.cli import _scenes
 from zteleop.cli._driving import find_vehicle
 from zteleop.cli.keyboard import drive_with_keys
 from zteleop.config import Config
+from zteleop.control.vehicles import VEHICLES
 from zteleop.errors import BusError
 from zteleop.inputs import Drive
 from zteleop.inputs.script import Script
@@ -45,7 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="NAME",
         help=f"where it drives: {', '.join(_scenes.names())}, or a file (default: {SCENE})",
     )
-    _options.add_vehicle(parser)
+    parser.add_argument("--vehicle", choices=[*VEHICLES], default="car", help="what drives (default: car)")
     parser.add_argument("--drive", choices=["step", "hold"], help="how the keys drive (default: step)")
 
 
@@ -61,7 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
         log = stack.enter_context((folder / "log").open("w"))
         (folder / "config.toml").write_text(f'[drivers.simulated]\npath = "{folder / "chip"}"\n')
         where = ["--config", str(folder / "config.toml"), "--robot", robot, "--no-multicast-scouting"]
-        vehicle = arguments.vehicle or "car"
+        vehicle = arguments.vehicle
         actuator = [
             "actuator",
             *where,

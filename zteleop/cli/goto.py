@@ -11,7 +11,7 @@ EXAMPLES = (
     "zteleop goto 1.5 0 --within 20cm --speed 1m/s",
 )
 SOURCE = "planner"
-WITHIN = 0.1
+WITHIN, CLOSE = 0.1, 0.04
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -38,7 +38,8 @@ def run(arguments: argparse.Namespace) -> None:
         x, y = arguments.x, arguments.y
         speed = arguments.speed or pace.straight_speed(vehicle)
         if (off := pose.distance(x, y)) <= arguments.within:
-            print(f"{node.robot} is there already, {off:.2f} m off; nearer is --within {50 * off:.0f}cm")
+            nearer = f"; nearer is --within {50 * off:.0f}cm" if off > CLOSE else ""
+            print(f"{node.robot} is there already, {off:.2f} m off{nearer}")
             return
         here, there = f"x {pose.x:.2f} m, y {pose.y:.2f} m", f"x {x:.2f} m, y {y:.2f} m"
         print(f"drives from {here} to {there}, at {speed:g} m/s at most", flush=True)

@@ -1,6 +1,7 @@
 import argparse
 from collections.abc import Iterator
 from contextlib import contextmanager
+from math import isclose
 
 from zteleop import config
 from zteleop.bus import clock, presence
@@ -9,6 +10,7 @@ from zteleop.bus.session import Session, open_session
 from zteleop.cli import _options, _scenes
 from zteleop.cli._alone import expect_alone
 from zteleop.config import Config
+from zteleop.control.report import to_vehicle
 from zteleop.control.vehicles import VEHICLES, name_of
 from zteleop.errors import DeviceError
 from zteleop.messages import Odometry, Vehicle
@@ -60,7 +62,7 @@ def run(arguments: argparse.Namespace) -> None:
         driver = settings.driver_settings("simulated", robot)
         _options.end_with_parent(arguments, node)
         node.log.info(f"moves {robot}, a simulated {kind}, by the pulses in {driver['path']}")
-        node.every(TELL_AFTER)(Attendant(node, kind).look)
+        node.every(TELL_AFTER)(Attendant(node, kind, to_vehicle(settings.drive, 1.0)).look)
         simulated = Simulated(kind, scene, LEVELS[arguments.noise], arguments.seed)
         simulator.run(node, settings.drive, driver["path"], lambda line: print(line, flush=True), simulated)
 
@@ -92,10 +94,11 @@ def _robot_of(settings: Config, session: Session) -> str:
 class Attendant:
     """Says whether anybody moves the car: its actuator comes and goes as it likes."""
 
-    def __init__(self, node: Node, kind: str) -> None:
+    def __init__(self, node: Node, kind: str, own: Vehicle) -> None:
         self._node = node
         self._kind = kind
-        self._meant = ""
+        self._own = own
+        self._differs = ""
         self._heard = node.membership.heard()
         self._there: bool | None = None
         self._began = clock.now()
@@ -119,9 +122,23 @@ class Attendant:
             self._node.log.warn(f"waits for pulses: no actuator of {robot} is heard ({here}); {start}")
 
     def _compare(self, vehicle: Vehicle | None) -> None:
-        """Say so where its actuator drives another kind of vehicle: its pulses mean something else here."""
-        meant = ("car" if vehicle.steers else "tank") if vehicle else ""
-        if meant not in (self._meant, "") and (meant == "car") != (self._kind == "car"):
-            words = f"the actuator of {self._node.robot} drives a {meant}, and this simulates a {self._kind}"
-            self._node.log.warn(f"{words}: its pulses mean something else; start zteleop sim {meant}")
-        self._meant = meant
+        """Say so where its actuator drives another vehicle: its pulses mean something else here."""
+        differs = difference(vehicle, self._own) if vehicle else ""
+        if differs and differs != self._differs:
+            words = f"the actuator of {self._node.robot} drives another vehicle than this {self._kind}"
+            self._node.log.warn(f"{words}, and its pulses mean something else: {differs}")
+        self._differs = differs
+
+
+def difference(there: Vehicle, here: Vehicle) -> str:
+    """Return how two vehicles differ, by what they do at full pulses; nothing where they do not."""
+    if there.steers != here.steers:
+        does = {True: "steers", False: "turns by its wheels"}
+        return f"that one {does[there.steers]}, and this one {does[here.steers]}"
+    bounds = (there.max_speed, here.max_speed), (there.max_turn, here.max_turn)
+    if all(isclose(a, b, rel_tol=0.01) for a, b in bounds):
+        return ""
+    return (
+        f"at most {there.max_speed:.3g} m/s and {there.max_turn:.3g} rad/s there, "
+        f"{here.max_speed:.3g} m/s and {here.max_turn:.3g} rad/s here"
+    )

@@ -23,7 +23,7 @@ ACTUATOR_SILENCE = 0.25
 ACTUATOR_START, LONGEST_START = 5.0, 60.0
 """until its first step; whatever was too short is doubled for the next, as a slow machine stays slow"""
 WATCHDOG_SILENCE = 0.42
-"""without its word, until the actuator is at neutral and ends: 0.5 since it froze at the latest"""
+"""without its word, until the actuator is at neutral and ends: 0.45 since it froze at the latest"""
 GRACE = 0.25
 """that the actuator has to do what its deadlines ask, before the watchdog does it"""
 BLIND = 0.25

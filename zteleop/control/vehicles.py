@@ -37,13 +37,22 @@ def name_of(drive: DriveSettings) -> str:
 
 
 def made_into(drive: DriveSettings, name: str) -> DriveSettings:
-    """Return the settings of a vehicle by its name: those given where they are of its kind, else as built in.
+    """Return the settings of a vehicle by its name: those given where they are one, else as built in.
 
-    Raises ConfigError where they are somebody's own, of another kind.
+    Bounds that somebody has set are kept. Raises ConfigError where the settings are another vehicle's.
     """
-    built = VEHICLES[name]
-    if drive.mixer.kind == built.mixer.kind:
+    if name_of(drive) == name:
         return drive
-    if Built(drive.mixer, drive.servos, drive.limits) != VEHICLES[own := name_of(drive)]:
-        raise ConfigError(f"config.toml makes this robot a {own}, so it is no {name}; leave out {name}")
-    return msgspec.structs.replace(drive, mixer=built.mixer, servos=built.servos.copy(), limits=built.limits)
+    if (drive.mixer, drive.servos) != VEHICLES["car"][:2]:
+        own = f"[drive.mixer] and [drive.servos] make this robot a {name_of(drive)}"
+        raise ConfigError(f"{own}, and no {name}; leave one out")
+    built = VEHICLES[name]
+    usual = msgspec.structs.asdict(Limits())
+    limits = msgspec.structs.asdict(drive.limits)
+    own_limits = {field: value for field, value in limits.items() if value != usual[field]}
+    return msgspec.structs.replace(
+        drive,
+        mixer=built.mixer,
+        servos=built.servos.copy(),
+        limits=msgspec.structs.replace(built.limits, **own_limits),
+    )

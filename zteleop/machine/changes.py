@@ -11,27 +11,25 @@ LARGEST = 2**20
 """bytes that are compared"""
 
 
-def watch(path: Path, tell: Callable[[str], object]) -> None:
-    """Call `tell` whenever the file has other content than at the last look, from a thread of its own."""
-    threading.Thread(target=Changes(path, tell).run, name="changes", daemon=True).start()
-
-
 class Changes:
     """What a file holds, and held at the start; one that cannot be read just now has not changed."""
 
-    def __init__(self, path: Path, tell: Callable[[str], object]) -> None:
+    def __init__(self, path: Path) -> None:
         self._path = path.absolute()
         self._name = path
-        self._tell = tell
         self._mark = self._seen()
         self._first = self._last = self._content()
 
-    def run(self) -> None:
-        while True:
-            time.sleep(LOOK_EVERY)
-            self.look()
+    def watch(self, tell: Callable[[str], object]) -> None:
+        """Tell of each change from now on, from a thread of its own."""
+        threading.Thread(target=self._run, args=(tell,), name="changes", daemon=True).start()
 
-    def look(self) -> None:
+    def _run(self, tell: Callable[[str], object]) -> None:
+        while True:
+            self.look(tell)
+            time.sleep(LOOK_EVERY)
+
+    def look(self, tell: Callable[[str], object]) -> None:
         """Tell of other content, once; that of the start is what the program goes by."""
         if (mark := self._seen()) is None or mark == self._mark:
             return
@@ -40,7 +38,7 @@ class Changes:
             return
         self._mark = mark
         if content not in (self._last, self._first):
-            self._tell(f"{self._name} has changed; what it says counts once this is started again")
+            tell(f"{self._name} has changed; what it says counts once this is started again")
         self._last = content
 
     def _seen(self) -> tuple[int, ...] | None:

@@ -11,6 +11,7 @@ from zteleop.messages import (
     Header,
     InterfaceButtons,
     LightringLeds,
+    Log,
     SetBoolRequest,
     SetBoolResponse,
     StopStatus,
@@ -91,7 +92,7 @@ class Equipment:
             self._notes.step(NOTED)
             while self._notes.started:
                 note = self._notes.started.popleft()
-                node.log.info(f"plays {note.frequency} Hz")
+                node.log.tell(Log.INFO, f"plays {note.frequency} Hz", "notes")
 
     def _press(self, name: Name, request: SetBoolRequest) -> SetBoolResponse:
         """Press a button, or let it go, for whoever has no finger on the robot."""
@@ -105,7 +106,8 @@ class Equipment:
         """Show what is told, in words: a simulated ring is seen nowhere else yet."""
         self._lights.hear(message)
         if self._lights.told is None:
-            self._node.log.info("its lights are its own again")
+            self._node.log.tell(Log.INFO, "its lights are its own again", "lights")
         else:
             colours = ", ".join(f"{led.red} {led.green} {led.blue}" for led in self._lights.told)
-            self._node.log.info(f"its lights are {colours} (red green blue, from 4 o'clock on)")
+            words = f"its lights are {colours} (red green blue, from 4 o'clock on)"
+            self._node.log.tell(Log.INFO, words, "lights")

@@ -1,37 +1,75 @@
 """Says where a robot should be that has nothing else to say so: by what its wheels are told, or turn."""
 
 from collections.abc import Callable
+from math import hypot
 from typing import Generic, TypeVar
 
 from zteleop.bus import clock
 from zteleop.bus.node import Node
-from zteleop.bus.subscription import Subscription
 from zteleop.bus.topics import TOPICS
 from zteleop.control.motion.dead_reckoning import DeadReckoning, OdometrySettings
 from zteleop.control.motion.pose import heading_of
+from zteleop.control.proof import NEVER
 from zteleop.messages import DriveStatus, Imu, Message, Odometry, TFMessage, Twist, WheelTicks
 
 M = TypeVar("M", bound=Message)
 SILENT = 0.5
-"""s after which what a robot, an encoder or an IMU said last is over"""
+"""s after which what a robot or an IMU said last is over"""
+ENCODERS_SILENT = 2.0
+"""s after which encoders are; the seldom ones speak once a second"""
+UPRIGHT = 0.1
+"""by which the length of a rotation may differ from 1"""
+FASTEST, TURNS = 20.0, 50.0
+"""m/s and rad/s; nothing that is told more than that is driven so"""
 
 
 class Lately(Generic[M]):
-    """What was said last on a topic, and whether it still counts."""
+    """What was said last on a topic, and whether it still counts; nonsense is told, and never does."""
 
-    def __init__(self, inbox: Subscription[M]) -> None:
-        self._inbox = inbox
+    def __init__(
+        self,
+        node: Node,
+        topic: str,
+        kind: type[M],
+        lasts: float = SILENT,
+        nonsense: Callable[[M], str] = lambda message: "",
+    ) -> None:
+        self._inbox = node.subscription(topic, kind)
+        self._topic = topic
+        self._warn = node.log.warn
+        self._lasts = lasts
+        self._nonsense = nonsense
         self.last: M | None = None
-        self.at = float("-inf")
+        self.at = NEVER
 
     def news(self, now: float) -> M | None:
         """Return what has come since the look before."""
-        if news := self._inbox.newest():
+        news = self._inbox.newest()
+        if news and (why := self._nonsense(news)):
+            self._warn(f"{self._topic} does not count: {why}", self._topic)
+            return None
+        if news:
             self.last, self.at = news, now
         return news
 
     def speaks(self, now: float) -> bool:
-        return now - self.at <= SILENT
+        return now - self.at <= self._lasts
+
+
+def too_fast(status: DriveStatus) -> str:
+    """Return why nothing is driven as a status says."""
+    speed, turn = status.applied.linear.x, status.applied.angular.z
+    sane = abs(speed) <= FASTEST and abs(turn) <= TURNS
+    return "" if sane else f"nothing drives at {speed:g} m/s and {turn:g} rad/s"
+
+
+def no_heading(imu: Imu) -> str:
+    """Return why an IMU does not say where it looks: as ROS has it, -1 is for one that does not know."""
+    if imu.orientation_covariance[0] == -1:
+        return "this imu knows no orientation"
+    q = imu.orientation
+    length = hypot(q.x, q.y, q.z, q.w)
+    return "" if abs(length - 1) <= UPRIGHT else f"a rotation has a length of 1, found {length:g}"
 
 
 class DeadReckoner:
@@ -42,9 +80,9 @@ class DeadReckoner:
         self._tell = tell
         self._heard = node.membership.heard()
         self._reckoning = DeadReckoning(settings)
-        self._told = Lately(node.subscription("drive_status", DriveStatus))
-        self._ticks = Lately(node.subscription("wheel_ticks", WheelTicks))
-        self._compass = Lately(node.subscription("imu", Imu))
+        self._told = Lately(node, "drive_status", DriveStatus, nonsense=too_fast)
+        self._ticks = Lately(node, "wheel_ticks", WheelTicks, ENCODERS_SILENT)
+        self._compass = Lately(node, "imu", Imu, nonsense=no_heading)
         self._odoms = node.publisher("odom", Odometry)
         self._transforms = node.publisher("tf", TFMessage)
         self._then = clock.now()

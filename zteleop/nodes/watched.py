@@ -8,6 +8,9 @@ from zteleop.control.deadlines import WATCHDOG_SILENCE
 from zteleop.errors import DeviceError
 from zteleop.machine.link import UNWATCHED
 
+A_MOMENT = 0.001
+"""s past the deadline"""
+
 
 class UnwatchedError(DeviceError):
     """Nobody watches, so the actuator ends, at rest; a watchdog that was only late starts another."""
@@ -34,3 +37,4 @@ class Watched:
         self._notice_pause(now)
         if (silent := now - self._last) >= WATCHDOG_SILENCE:
             raise UnwatchedError(f"the watchdog has been silent for {silent:.1f} s; the robot is at rest")
+        self._alarm.ring_at(self._last + WATCHDOG_SILENCE + A_MOMENT)  # rounding, or a pause that it noticed

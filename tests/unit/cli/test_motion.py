@@ -5,14 +5,15 @@ from typing import Any
 
 import pytest
 
+from zteleop.bus.subscription import Received
 from zteleop.cli import circle, drive, square
 from zteleop.cli._motion import Motion, went
 from zteleop.cli._options import measure
 from zteleop.control.motion.pose import Pose2D
 from zteleop.control.motion.trail import Trail
 from zteleop.errors import ConfigError
-from zteleop.messages import Twist, Vehicle
-from zteleop.testing import FakeNode
+from zteleop.messages import Odometry, Twist, Vehicle
+from zteleop.testing import Clock, FakeNode
 
 
 def trail(*poses: Pose2D) -> Trail:
@@ -105,6 +106,8 @@ def test_what_came_of_it_is_told_in_its_own_measures() -> None:
         ({"lost": "link lost: a moment"}, True, ""),
         ({"lost": "link lost: for long", "since": -2.0}, True, "link lost: for long"),
         ({"lost": "stopped: by ann", "taken": True}, True, "stopped: by ann"),
+        ({"anew": True}, True, "where bench is was counted anew; say it again"),
+        ({"anew": True}, False, ""),
         ({"obeyed": False}, True, ""),
         ({"obeyed": False, "refused": "it is too old"}, True, "it is too old"),
         ({"obeyed": False, "began": -5.0}, True, "it does not obey"),
@@ -124,5 +127,22 @@ def test_a_course_goes_on_for_as_long_as_it_is_obeyed_seen_and_makes_way(
     motion._publisher = SimpleNamespace(refused=seen.get("refused", ""))  # type: ignore[assignment]
     motion._began, motion._lost = now + seen.get("began", 0.0), now + seen.get("since", 0.0)
     motion._seen, motion._trail = now + seen.get("seen", 0.0), arc(1.0, 1.0)
+    motion._anew = seen.get("anew", False)
     motion._progress = SimpleNamespace(is_stuck=lambda trail, now: "stuck" in seen)  # type: ignore[assignment]
     assert motion._hindrance(now, by_sight) == words
+
+
+@pytest.mark.parametrize(
+    ("jump", "silent", "anew"), [(0.2, 0.05, False), (5.0, 0.05, True), (2.0, 0.9, False), (-5.0, 0.5, True)]
+)
+def test_odometry_that_begins_anew_is_noticed_and_is_no_way(
+    clock: Clock, jump: float, silent: float, anew: bool
+) -> None:
+    motion = Motion.__new__(Motion)
+    motion._pose, motion._seen, motion._trail, motion._anew = Pose2D(5.0), clock.time, Trail(), False
+    clock.pass_by(silent)
+    odom = Odometry.zero()
+    odom.pose.pose.position.x = 5.0 + jump
+    motion._see(Received(odom, "robot/bench/odom", None, clock.time))
+    assert motion._anew is anew
+    assert motion._pose == Pose2D(5.0 if anew else 5.0 + jump, 0.0, 0.0)

@@ -21,7 +21,7 @@ from zteleop.messages import (
     Vector3,
     WheelTicks,
 )
-from zteleop.nodes.dead_reckoner import SILENT, DeadReckoner
+from zteleop.nodes.dead_reckoner import ENCODERS_SILENT, SILENT, DeadReckoner
 from zteleop.testing import FakeNode
 
 PERIOD = TOPICS["odom"].every
@@ -32,6 +32,10 @@ TOLD, TICKS, COMPASS = (
 )
 HEADER, NO_VECTOR = Header(Time(1, 0), "imu"), Vector3(0.0, 0.0, 0.0)
 ZEROS = [0.0] * 9
+
+
+def imu(turned: Quaternion, covariance: list[float] = ZEROS) -> Imu:
+    return Imu(HEADER, turned, covariance, NO_VECTOR, ZEROS, NO_VECTOR, ZEROS)
 
 
 class Reckoned:
@@ -54,8 +58,7 @@ class Reckoned:
             self.node.loop.run(PERIOD)
 
     def turn(self, heading: float) -> None:
-        turned = turned_by(heading)
-        self.node.hear("imu", Imu(HEADER, turned, ZEROS, NO_VECTOR, ZEROS, NO_VECTOR, ZEROS))
+        self.node.hear("imu", imu(turned_by(heading)))
 
     def count(self, left: int, right: int) -> None:
         self.node.hear("wheel_ticks", WheelTicks(HEADER, left, right))
@@ -119,7 +122,7 @@ def test_encoders_count_while_they_speak(robot: Reckoned) -> None:
         robot.drive(9.0, 0.0, PERIOD)
     assert robot.pose.heading == pytest.approx(1.0)
     assert robot.moving == pytest.approx((0.02 / PERIOD, 0.1 / PERIOD))
-    robot.step(round(SILENT / PERIOD) + 1)
+    robot.step(round(ENCODERS_SILENT / PERIOD) + 1)
     assert robot.told == [TICKS, TOLD]
     x = robot.pose.x
     robot.count(8000, 8000)
@@ -130,9 +133,10 @@ def test_encoders_count_while_they_speak(robot: Reckoned) -> None:
 def test_encoders_that_speak_seldom_are_not_taken_for_fast(robot: Reckoned) -> None:
     for number in range(6):
         robot.count(100 * number, 100 * number)
-        robot.step(4)
-    assert robot.pose.x == pytest.approx(0.5)
-    assert robot.odom.twist.twist.linear.x == pytest.approx(0.1 / (4 * PERIOD))
+        robot.step(round(1.0 / PERIOD))
+    assert robot.pose.x == pytest.approx(0.5), "once a second is often enough"
+    assert robot.odom.twist.twist.linear.x == pytest.approx(0.1)
+    assert robot.told[-1] == TICKS
 
 
 def test_encoders_count_for_nothing_where_the_settings_say_so(node: FakeNode) -> None:
@@ -175,3 +179,32 @@ def test_the_pose_is_told_as_tf_too(robot: Reckoned) -> None:
     assert (transform.header.frame_id, transform.child_frame_id) == ("odom", "base_link")
     assert transform.transform.translation.x == robot.pose.x
     assert isinstance(transform.transform.rotation, Quaternion)
+
+
+@pytest.mark.parametrize(("speed", "turn"), [(1e308, 0.0), (0.0, 1e308), (1e9, 0.0), (0.0, -99.0)])
+def test_what_nothing_drives_is_not_driven(robot: Reckoned, speed: float, turn: float) -> None:
+    robot.drive(0.5, 0.0, 1.0)
+    robot.step(round(SILENT / PERIOD) + 1)
+    before = robot.pose
+    robot.drive(speed, turn, 1.0)
+    assert robot.pose == before
+    assert robot.node.warnings[0].startswith("drive_status does not count: nothing drives at ")
+
+
+@pytest.mark.parametrize("size", [0.0, 1e308, 0.5])
+def test_a_rotation_that_is_none_turns_nothing(robot: Reckoned, size: float) -> None:
+    for _ in range(3):
+        robot.node.hear("imu", imu(Quaternion(0.0, 0.0, size, size)))
+        robot.drive(0.5, 0.5, PERIOD)
+    assert robot.pose.heading == pytest.approx(3 * 0.5 * PERIOD)
+    assert robot.told == [TOLD]
+    assert robot.node.warnings[0].startswith("imu does not count: a rotation has a length of 1, found ")
+
+
+def test_an_imu_that_knows_no_orientation_turns_nothing(robot: Reckoned) -> None:
+    unknown = imu(turned_by(0.0), [-1.0, *ZEROS[1:]])
+    for _ in range(3):
+        robot.node.hear("imu", unknown)
+        robot.drive(0.5, 0.5, PERIOD)
+    assert robot.pose.heading == pytest.approx(3 * 0.5 * PERIOD)
+    assert robot.node.warnings[0] == "imu does not count: this imu knows no orientation"
