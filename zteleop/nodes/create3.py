@@ -106,7 +106,7 @@ class Equipment:
         """Show what is told, in words: a simulated ring is seen nowhere else yet."""
         self._lights.hear(message)
         if self._lights.told is None:
-            self._node.log.tell(Log.INFO, "its lights are its own again", "lights")
+            self._node.log.tell(Log.INFO, "its lights are its own again", "own lights")
         else:
             colours = ", ".join(f"{led.red} {led.green} {led.blue}" for led in self._lights.told)
             words = f"its lights are {colours} (red green blue, from 4 o'clock on)"
