@@ -27,6 +27,13 @@ UNWATCHED = 75
 """The exit code of an actuator that ended at rest because nobody watched it: EX_TEMPFAIL of sysexits.h."""
 
 
+def gone() -> DeviceError:
+    """Return the error of an actuator whose watchdog has ended."""
+    return DeviceError(
+        "the watchdog is gone; the actuator does not run without one: start zteleop actuator again"
+    )
+
+
 class Report(NamedTuple):
     """One step of the actuator."""
 
@@ -87,9 +94,7 @@ class ActuatorEnd(End):
         """Return what arrived; raises DeviceError when the watchdog is gone, or cannot be understood."""
         data = self._read()
         if data is None:
-            raise DeviceError(
-                "the watchdog is gone; the actuator does not run without one: start zteleop actuator again"
-            )
+            raise gone()
         self._rest += data
         hears, cut, stops = None, False, []
         while self._rest:

@@ -11,7 +11,7 @@ from zteleop.config import Config
 from zteleop.control.standing import Standing
 from zteleop.drivers import open_driver
 from zteleop.errors import ConfigError, DeviceError
-from zteleop.machine import link, realtime
+from zteleop.machine import link, orphan, realtime
 from zteleop.machine.health import Health
 from zteleop.machine.limits_file import LimitsFile
 from zteleop.machine.link import ActuatorEnd
@@ -33,6 +33,7 @@ def run(number: int) -> int:
         realtime.ask_for(PROGRAM.priority, PROGRAM.oom_score)
         if settings.driver == "simulated" and standing is None:
             node.log.info("the chip is simulated, and moves no wheel; --driver pca9685 writes to a real one")
+        orphan.notice(lambda: node.membership.loop.fail(link.gone()))
         folder = config.state_folder(robot)
         chip = settings.driver_settings(settings.driver, robot)
         Actuator(
