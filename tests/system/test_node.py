@@ -157,7 +157,7 @@ def test_who_cannot_follow_what_he_hears_is_told_so(rig: Rig, node: Node, hail: 
     slow.says("listening")
     say(node, "hail", *(f"number {n}" for n in range(9)))
     said = slow.says("robot/bench/hail: messages come faster than this program takes them (")
-    assert said.startswith("program: warning: ")
+    assert "program: warning: " in said  # behind a part of what the program itself was just printing
     slow.signal(signal.SIGINT)
     slow.ends()
 
