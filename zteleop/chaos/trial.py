@@ -79,8 +79,10 @@ def judge(bench: Bench, fault: Fault) -> Outcome:
 
 
 def _rests(bench: Bench, meter: Meter) -> bool:
-    meter.glance()
-    return bench.eye.at_rest
+    rests = bench.eye.at_rest
+    if not rests:  # only then: to read what a dying process waited for may take 30 ms
+        meter.glance()
+    return rests
 
 
 def _what_follows(bench: Bench, fault: Fault) -> str:

@@ -1,6 +1,7 @@
 """What a trial concludes from the chip alone; the bench is one whose wheels follow a script."""
 
 from collections.abc import Callable
+from types import SimpleNamespace
 
 import pytest
 
@@ -75,3 +76,19 @@ def test_whoever_must_drive_on_and_does_not(monkeypatch: pytest.MonkeyPatch) -> 
         "it did not drive again within 5 s"
     )
     assert done(Scripted(stops=0.1, starts=2.0), fault, monkeypatch).broken == ""
+
+
+def test_the_chip_is_looked_at_before_anything_that_may_take_long() -> None:
+    looks: list[str] = []
+    meter = SimpleNamespace(glance=lambda: looks.append("meter"))
+    seen = iter([False, True])
+
+    class Eye:
+        @property
+        def at_rest(self) -> bool:
+            looks.append("chip")
+            return next(seen)
+
+    bench = SimpleNamespace(eye=Eye())
+    assert [trial._rests(bench, meter) for _ in range(2)] == [False, True]  # type: ignore[arg-type]
+    assert looks == ["chip", "meter", "chip"]
