@@ -78,8 +78,10 @@ class Subscription(Generic[M]):
         samples = []
         while (sample := self.ring.try_recv()) is not None:
             samples.append(sample)
-        received = (self.read(sample) for sample in reversed(samples))
-        return next((found.message for found in received if found), None)
+        for sample in reversed(samples):
+            if found := self.read(sample):
+                return found.message
+        return None
 
     def read(self, sample: Sample) -> Received[M] | None:
         """Return the message in a sample; None, counted and said, when it is none."""
