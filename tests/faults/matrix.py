@@ -120,7 +120,7 @@ class Stage:
 
     def _drive(self, acts: int) -> None:
         bench = self.bench
-        command = [sys.executable, "-c", OPERATE, endpoint(bench.door), bench.place.robot, str(acts)]
+        command = [sys.executable, "-c", OPERATE, endpoint(bench.place.address), bench.place.robot, str(acts)]
         bench.operator = bench.run("operator", command)
         self._until(lambda: not bench.eye.at_rest, "it drives")
 
