@@ -22,6 +22,7 @@ from zteleop.errors import ConfigError
 from zteleop.inputs.gamepad_map import GamepadSettings
 from zteleop.inputs.keymap import bindings, switches
 from zteleop.inputs.levers import Steps
+from zteleop.machine.signals import sheltered
 
 LONGEST = 2**20
 """bytes of a file: /dev/zero has no end, and half of a file may be another calibration"""
@@ -99,7 +100,8 @@ def parse(text: bytes, name: str = "settings") -> Config:
         raise ConfigError(f"{name}: expected at most {LONGEST} bytes of settings, found more")
     try:
         values = msgspec.toml.decode(text)
-        return msgspec.convert(values, Config)
+        with sheltered():
+            return msgspec.convert(values, Config)
     except msgspec.ValidationError as error:
         raise ConfigError(_mistakes(text.decode(), values, name) or f"{name}: {error}") from None
     except (msgspec.DecodeError, ValueError, RecursionError) as error:

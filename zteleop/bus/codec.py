@@ -13,6 +13,7 @@ import msgspec
 
 from zteleop.control.proof import Proof
 from zteleop.errors import MessageError
+from zteleop.machine.signals import sheltered
 from zteleop.messages import MESSAGES, Message
 
 MAX_BYTES = 1 << 20
@@ -44,7 +45,8 @@ def encode(message: Message) -> bytes:
 
 @cache
 def _reader(kind: type[Message]) -> Decoder:
-    return msgspec.json.Decoder(kind).decode
+    with sheltered():
+        return msgspec.json.Decoder(kind).decode
 
 
 def decoders(kinds: Iterable[type[Message]]) -> dict[str, Decoder]:

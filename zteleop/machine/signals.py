@@ -4,7 +4,8 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from types import FrameType
 from typing import Any
 
@@ -15,6 +16,9 @@ ENDING = tuple(
 UNDISTURBED = 1.0
 """s after a signal in which a second Ctrl-C does not end what the first began to clean up."""
 _raised = float("-inf")
+_shelters = 0
+_kept: int | None = None
+"""A signal that came in a shelter."""
 _DEFAULTS = (signal.SIG_DFL, signal.default_int_handler)
 
 
@@ -38,8 +42,32 @@ def unwind() -> Callable[[], None]:
     return undo
 
 
+@contextmanager
+def sheltered() -> Iterator[None]:
+    """Let an ending signal wait until the end of this.
+
+    What a handler raises in Python code that is called from C may be lost: msgspec, while it makes a decoder,
+    hashes types of `typing`, and drops whatever that raises.
+    """
+    global _shelters, _kept
+    if threading.current_thread() is not threading.main_thread():  # which alone handles signals
+        yield
+        return
+    _shelters += 1
+    try:
+        yield
+    finally:
+        _shelters -= 1
+        if _kept is not None:  # within another shelter it is kept again
+            number, _kept = _kept, None
+            _raise(number, None)
+
+
 def _raise(number: int, frame: FrameType | None) -> None:
-    global _raised
+    global _raised, _kept
+    if _shelters:
+        _kept = number
+        return
     now = time.monotonic()
     if now - _raised < UNDISTURBED:
         return

@@ -1,5 +1,6 @@
 """The chip, never trusted: what fails is written again, what was forgotten is noticed and repaired."""
 
+import time
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 
@@ -15,6 +16,8 @@ from zteleop.messages import Confirmed
 FAILED_STEPS = 3
 """in a row that make a fault; each has written three times already"""
 REPAIR_EVERY = 0.1
+REST_WITHIN, REST_AGAIN = 1.0, 0.01
+"""s for which the last neutral of all is tried, and between two tries"""
 FAULT, SLOWNESS, ARMING = "chip", "bus", "arming"
 
 
@@ -116,8 +119,21 @@ class Output:
             self._admission.free(ARMING, now)
 
     def rest(self) -> None:
-        """Leave neutral behind; raises DeviceError when the chip does not take it."""
-        self._take(self._neutral_us)
+        """Leave neutral behind; raises DeviceError when the chip does not take it, however often it is asked.
+
+        Nobody writes after this: a chip that fails just now goes on with the pulses it had.
+        """
+        give_up, tries = clock.now() + REST_WITHIN, round(REST_WITHIN / REST_AGAIN)
+        while True:
+            try:
+                self._take(self._neutral_us)
+            except DeviceError:
+                tries -= 1
+                if clock.now() >= give_up or not tries:
+                    raise
+                time.sleep(REST_AGAIN)
+            else:
+                return
 
     def close(self) -> None:
         self._driver.close()

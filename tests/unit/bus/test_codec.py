@@ -1,4 +1,7 @@
+import signal
+from contextlib import suppress
 from math import inf, nan
+from types import SimpleNamespace
 from typing import Annotated, Any, Literal, get_args, get_origin
 
 import msgspec
@@ -10,6 +13,7 @@ from msgspec import Meta
 from zteleop.bus import codec
 from zteleop.control.proof import NEVER, Proof
 from zteleop.errors import MessageError
+from zteleop.machine import signals
 from zteleop.messages import (
     MESSAGES,
     Beat,
@@ -228,3 +232,21 @@ def test_an_epoch_that_no_proof_can_echo_is_no_beat(epoch: int) -> None:
     """Anybody may say a beat; whoever echoes it in a proof must not fall over it."""
     with pytest.raises(MessageError):
         codec.decode_any(b'{"epoch":%d,"time":1.0}' % epoch, codec.encoding_of(Beat))
+
+
+def test_a_signal_while_a_reader_is_made_is_not_lost(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Msgspec drops what is raised in the Python code that it calls then."""
+
+    def make(kind: type) -> object:
+        with suppress(BaseException):
+            signal.raise_signal(signal.SIGINT)
+        return SimpleNamespace(decode=kind)
+
+    monkeypatch.setattr(msgspec.json, "Decoder", make)
+    monkeypatch.setattr(signals, "_raised", float("-inf"))
+    undo = signals.unwind()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            codec._reader.__wrapped__(String)
+    finally:
+        undo()

@@ -95,3 +95,22 @@ def test_ctrl_c_ends_a_program_quietly_and_is_still_what_people_catch(
     with pytest.raises(KeyboardInterrupt) as found:
         handlers[signal.SIGINT](signal.SIGINT, None)
     assert not isinstance(found.value, SystemExit), "at a prompt the interpreter goes on"
+
+
+def test_a_signal_in_a_shelter_raises_at_its_end(handlers: Table, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(signals, "UNDISTURBED", 0.0)
+    signals.unwind()
+    reached = []
+
+    def work() -> None:
+        with signals.sheltered():
+            with signals.sheltered():
+                handlers[signal.SIGINT](signal.SIGINT, None)
+                reached.append("inner")
+            reached.append("outer")
+
+    with pytest.raises(KeyboardInterrupt):
+        work()
+    assert reached == ["inner", "outer"]
+    with signals.sheltered():
+        pass  # it was told once

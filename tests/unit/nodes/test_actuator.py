@@ -187,8 +187,9 @@ def test_the_chip_starts_at_neutral_and_is_left_at_neutral(node: FakeNode, clock
 
 
 def test_a_chip_that_takes_no_neutral_at_the_end_is_said_and_all_is_closed(
-    node: FakeNode, clock: Clock
+    node: FakeNode, clock: Clock, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr("zteleop.nodes.output.REST_WITHIN", 0.0)
     chip, journal, link = MemoryChip(), Journal(), Link()
     actuator = Actuator(node, DriveSettings(), chip, link, Shelf(), LimitsShelf(), journal)
     chip.broken.add("write")

@@ -10,7 +10,7 @@ from zteleop.control.slowness import QUICK_WRITES, SLOW, SLOW_WRITES
 from zteleop.errors import DeviceError
 from zteleop.messages import Beat, Pwm, Stop
 from zteleop.nodes import output as module
-from zteleop.nodes.output import FAILED_STEPS, REPAIR_EVERY, Output
+from zteleop.nodes.output import FAILED_STEPS, REPAIR_EVERY, REST_AGAIN, REST_WITHIN, Output
 from zteleop.testing import Clock, MemoryChip
 
 NEUTRAL = {0: 1509.6, 1: 1530.0}
@@ -229,10 +229,45 @@ def test_failures_before_a_repair_do_not_count_after_it(bench: Workshop) -> None
     assert bench.state == "idle"
 
 
-def test_neutral_that_is_not_taken_at_the_end_is_an_error(bench: Workshop) -> None:
+def test_neutral_that_is_not_taken_at_the_end_is_tried_for_a_while(
+    bench: Workshop, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    waits: list[float] = []
+
+    def sleep(seconds: float) -> None:
+        waits.append(seconds)
+        if len(waits) == 20:
+            bench.chip.broken.clear()
+
+    monkeypatch.setattr(module, "time", SimpleNamespace(sleep=sleep))
+    bench.output.write(PULSES, bench.now)
+    bench.chip.broken.add("write")
+    bench.output.rest()
+    assert bench.chip.pulses == NEUTRAL
+    assert waits == [REST_AGAIN] * 20
+
+
+def test_neutral_that_is_never_taken_at_the_end_is_an_error(
+    bench: Workshop, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    waits: list[float] = []
+    monkeypatch.setattr(module, "time", SimpleNamespace(sleep=waits.append))
     bench.chip.broken.add("write")
     with pytest.raises(DeviceError):
         bench.output.rest()
+    assert sum(waits) == pytest.approx(REST_WITHIN, abs=2 * REST_AGAIN)
+
+
+def test_a_bus_that_hangs_at_each_try_is_tried_for_no_longer(
+    bench: Workshop, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    times, waits = iter(range(1000)), list[float]()
+    monkeypatch.setattr(module, "time", SimpleNamespace(sleep=waits.append))
+    monkeypatch.setattr(module, "clock", SimpleNamespace(now=lambda: 0.4 * next(times)))
+    bench.chip.broken.add("write")
+    with pytest.raises(DeviceError):
+        bench.output.rest()
+    assert len(waits) <= 3
 
 
 def stop(bench: Workshop) -> None:
