@@ -1,7 +1,8 @@
 import argparse
 from collections.abc import Iterator
 from contextlib import contextmanager
-from math import isclose
+
+import msgspec
 
 from zteleop import config
 from zteleop.bus import clock, presence
@@ -26,6 +27,7 @@ SPEAKS_WITHIN = 1.0
 """s in which another one is heard, if it moves the same robot"""
 TELL_AFTER = 1.0
 """s until it says that nobody moves it"""
+ROUNDED = 1.01
 LOST_AFTER = 1.0
 """s without a beat, of twenty a second, after which nobody does any more"""
 
@@ -62,7 +64,8 @@ def run(arguments: argparse.Namespace) -> None:
         driver = settings.driver_settings("simulated", robot)
         _options.end_with_parent(arguments, node)
         node.log.info(f"moves {robot}, a simulated {kind}, by the pulses in {driver['path']}")
-        node.every(TELL_AFTER)(Attendant(node, kind, to_vehicle(settings.drive, 1.0)).look)
+        unlimited = msgspec.structs.replace(settings.drive, limits=VEHICLES[kind].limits)
+        node.every(TELL_AFTER)(Attendant(node, kind, to_vehicle(unlimited, 1.0)).look)
         simulated = Simulated(kind, scene, LEVELS[arguments.noise], arguments.seed)
         simulator.run(node, settings.drive, driver["path"], lambda line: print(line, flush=True), simulated)
 
@@ -131,12 +134,11 @@ class Attendant:
 
 
 def difference(there: Vehicle, here: Vehicle) -> str:
-    """Return how two vehicles differ, by what they do at full pulses; nothing where they do not."""
+    """Return how one vehicle can not be the other; nothing where it may be, slowed down by its limits."""
     if there.steers != here.steers:
         does = {True: "steers", False: "turns by its wheels"}
         return f"that one {does[there.steers]}, and this one {does[here.steers]}"
-    bounds = (there.max_speed, here.max_speed), (there.max_turn, here.max_turn)
-    if all(isclose(a, b, rel_tol=0.01) for a, b in bounds):
+    if there.max_speed <= ROUNDED * here.max_speed and there.max_turn <= ROUNDED * here.max_turn:
         return ""
     return (
         f"at most {there.max_speed:.3g} m/s and {there.max_turn:.3g} rad/s there, "

@@ -1,9 +1,11 @@
 """What a simulation says of whoever moves it."""
 
+import msgspec
 import pytest
 
 from zteleop.cli import sim
 from zteleop.cli.sim import LOST_AFTER, TELL_AFTER, Attendant, difference
+from zteleop.control.limiter import Limits
 from zteleop.control.report import to_vehicle
 from zteleop.control.settings import DriveSettings
 from zteleop.control.vehicles import made_into
@@ -84,3 +86,8 @@ def test_two_vehicles_differ_by_what_full_pulses_do() -> None:
         "at most 1 m/s and 10 rad/s there, 0.306 m/s and 1.9 rad/s here"
     )
     assert not difference(made("create3"), made("create3"))
+
+
+def test_a_vehicle_that_is_slowed_down_by_its_limits_is_the_same() -> None:
+    slow = msgspec.structs.replace(DriveSettings(), limits=Limits(speed=0.2, turn=0.5))
+    assert not difference(to_vehicle(slow, 1.0), made("car"))
