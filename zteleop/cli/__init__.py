@@ -55,6 +55,7 @@ VERBS = {
     "doctor": "say what hinders zteleop on this machine",
     "completion": "print what lets your shell complete what you type",
     "init": "write a config file, by five questions",
+    "calibrate": "find out how far a car's servo and motor turn, and write it down",
     "check": "check a config file",
     "schema": "write the JSON Schema of every message and of config.toml",
 }

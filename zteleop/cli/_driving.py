@@ -1,6 +1,6 @@
 """One operator at a terminal who drives with a device: the screen, and the lane of a stop."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Protocol, Self
 
 from zteleop.bus import clock
@@ -51,10 +51,11 @@ def drive_at_terminal(
     known: Dashboard,
     meet: Callable[[Vehicle], None] = lambda vehicle: None,
     watch: Callable[[View], None] = lambda view: None,
+    task: Callable[[], Sequence[tuple[str, str]]] = tuple,
 ) -> None:
     """Show the screen and drive until the operator has enough; `meet` hears once which vehicle it is.
 
-    What is seen goes to `watch` as well.
+    What is seen goes to `watch` as well; `task` says what there is to do, as a `Dashboard` shows it.
     """
     node.log.show = lambda line: None  # nothing prints over the screen: it shows the log itself
     terminal, switches = device.terminal, Switches(node)
@@ -75,6 +76,7 @@ def drive_at_terminal(
                 unreached = session.unreached()
                 words = who_is_here(others, known.robot, unreached) if others or unreached else ""
                 paint.known = paint.known._replace(others=words)
+            paint.known = paint.known._replace(task=task())
             if (marks := floor.news()) is not None:
                 paint.known = paint.known._replace(floor=marks)
             switches.heed(device.switches)

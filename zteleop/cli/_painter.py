@@ -76,7 +76,7 @@ class Painter:
             speeds=device.speeds,
             seen=view,
             idle_left=left if left is None else round(left, 1),
-            looking=view.status is None and clock.now() < self._looks_until,
+            others=None if view.status is None and clock.now() < self._looks_until else self.known.others,
             about=device.about,
             in_vain=device.in_vain,
             keys=device.help,

@@ -10,6 +10,7 @@ from zteleop.chaos.fault import Fault
 from zteleop.chaos.trial import Outcome, attempt
 from zteleop.chaos.waiting import await_quiet
 from zteleop.cli import _options
+from zteleop.cli._consent import ask_consent
 from zteleop.cli.neutral import bring_to_rest
 from zteleop.config import Config
 from zteleop.errors import ConfigError, ZteleopError
@@ -19,7 +20,6 @@ EXAMPLES = (
     "zteleop chaos --list",
     'zteleop chaos --only "at three places" --times 1',
 )
-CONSENT = "wheels up"
 LATER = 0.007
 """s by which each trial strikes later than the one before: at another moment of every period"""
 TRIES = 3
@@ -91,7 +91,10 @@ def _subject(arguments: argparse.Namespace) -> Subject:
         if settings.driver == "simulated":
             raise ConfigError("--real needs a real chip, and the simulated one is configured; set driver")
         _heed_stop(settings.robot or config.own_name())
-        _ask(settings)
+        words = (
+            f"This turns the wheels on the {settings.driver}, again and again, and kills what drives them."
+        )
+        ask_consent(words)
         return Subject(settings, where)
     settings = msgspec.structs.replace(settings, driver="simulated")
     chip = settings.drivers.get("simulated", {}).get("path", "")
@@ -102,19 +105,6 @@ def _heed_stop(robot: str) -> None:
     """Let no chip move whose robot is stopped, though chaos drives it under another name."""
     if StopFile(config.state_folder(robot) / "stop", print).exists():
         raise ConfigError(f"{robot} is stopped; zteleop stop --release {robot} first")
-
-
-def _ask(settings: Config) -> None:
-    """Turn no real wheel before somebody has typed that it hangs in the air."""
-    print(
-        f"This turns the wheels on the {settings.driver}, again and again, and kills what drives them.\n"
-        f"Lift them off the ground and hold nothing near them. Type {CONSENT!r} to go on: ",
-        end="",
-        file=sys.stderr,
-        flush=True,
-    )
-    if sys.stdin.readline().strip() != CONSENT:
-        raise ConfigError(f"nothing was done: expected the words {CONSENT!r}")
 
 
 def _try(subject: Subject, fault: Fault, times: int) -> list[Outcome]:

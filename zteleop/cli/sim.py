@@ -49,7 +49,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default="none",
         help="how wrong its odometry and its range are (default: none)",
     )
-    parser.add_argument("--seed", metavar="N", type=int, default=0, help="of the noise")
+    parser.add_argument("--seed", metavar="N", type=int, default=0, help="of the noise, and of --unknown")
+    parser.add_argument(
+        "--unknown",
+        action="store_true",
+        help="a car whose servo and motor are not what config.toml says: find out with zteleop calibrate",
+    )
     _options.add_parent(parser)
 
 
@@ -66,7 +71,7 @@ def run(arguments: argparse.Namespace) -> None:
         node.log.info(f"moves {robot}, a simulated {kind}, by the pulses in {driver['path']}")
         unlimited = msgspec.structs.replace(settings.drive, limits=VEHICLES[kind].limits)
         node.every(TELL_AFTER)(Attendant(node, kind, to_vehicle(unlimited, 1.0)).look)
-        simulated = Simulated(kind, scene, LEVELS[arguments.noise], arguments.seed)
+        simulated = Simulated(kind, scene, LEVELS[arguments.noise], arguments.seed, arguments.unknown)
         simulator.run(node, settings.drive, driver["path"], lambda line: print(line, flush=True), simulated)
 
 

@@ -8,19 +8,23 @@ from typing import NamedTuple
 from zteleop.bus import clock
 from zteleop.bus.node import Node
 from zteleop.bus.topics import TOPICS
+from zteleop.control.mixer import Ackermann
 from zteleop.control.settings import DriveSettings
 from zteleop.drivers.registers import read_pulse_us
 from zteleop.drivers.simulated import open_registers
+from zteleop.errors import ConfigError
 from zteleop.messages import Header, Odometry, Range, String
 from zteleop.nodes.create3 import Equipment
 from zteleop.sim import make_vehicle
 from zteleop.sim.body import Body
+from zteleop.sim.car import Car
 from zteleop.sim.create3.body import Create3
 from zteleop.sim.noise import NONE, Noise
 from zteleop.sim.odometer import Odometer
 from zteleop.sim.plan import plan, to_text
 from zteleop.sim.ranges import RangeSensor
 from zteleop.sim.scene import Scene
+from zteleop.sim.unknown import unknown
 from zteleop.sim.world import World
 
 PERIOD, AT_REST = 0.01, 0.05
@@ -28,6 +32,9 @@ PERIOD, AT_REST = 0.01, 0.05
 STANDS = 0.001
 """m/s, or rad/s"""
 TELL_EVERY = 1.0
+SEEN_EVERY = 0.1
+HARDLY = 0.05
+"""degrees that nobody sees"""
 STANDS_BELOW = 0.001
 """m between two looks"""
 
@@ -39,6 +46,8 @@ class Simulated(NamedTuple):
     scene: Scene | None = None
     noise: Noise = NONE
     seed: int = 0
+    unknown: bool = False
+    """its servo and its ESC are not what the settings say"""
 
 
 def run(
@@ -53,8 +62,10 @@ def run(
     Raises ConfigError for a scene in which it does not fit.
     """
     simulated = simulated or Simulated()
-    if simulated.kind == "create3":
-        vehicle: Body = Create3(settings.servos)
+    if simulated.unknown:
+        vehicle: Body = unknown_car(settings, simulated.seed)
+    elif simulated.kind == "create3":
+        vehicle = Create3(settings.servos)
     else:
         vehicle = make_vehicle(settings.mixer, settings.servos)
     vehicle.odometer = Odometer(simulated.noise, Random(simulated.seed))
@@ -81,6 +92,8 @@ def run(
     def tell() -> None:
         odoms.publish(vehicle.odometry(clock.stamp()))
 
+    if simulated.unknown and isinstance(vehicle, Car):
+        node.every(SEEN_EVERY)(Wheels(vehicle, show).look)
     rolled, moved = 0.0, False
 
     @node.every(TELL_EVERY)
@@ -92,6 +105,32 @@ def run(
         rolled, moved = vehicle.distance, moves
 
     node.spin()
+
+
+def unknown_car(settings: DriveSettings, seed: int) -> Car:
+    """Return a car to calibrate; raises ConfigError for settings that make none."""
+    if not isinstance(settings.mixer, Ackermann):
+        raise ConfigError("--unknown is for a car, with steering and throttle")
+    really = unknown(settings.servos, seed)
+    return Car(settings.mixer, really.servos, really.settings)
+
+
+class Wheels:
+    """Tells what somebody would see who watches the wheels of a car: where they point, and how they turn."""
+
+    def __init__(self, car: Car, show: Callable[[str], None]) -> None:
+        self._car = car
+        self._show = show
+        self._told = ""
+
+    def look(self) -> None:
+        """Say it when it is another than before."""
+        angle = degrees(self._car.steering_angle)
+        side = "left" if angle > 0 else "right"
+        points = f"{abs(angle):.1f} deg to the {side}" if abs(angle) >= HARDLY else "straight ahead"
+        if points + str(round(self._car.speed, 2)) != self._told:
+            self._told = points + str(round(self._car.speed, 2))
+            self._show(f"its wheels point {points}, and turn at {self._car.speed:.2f} m/s")
 
 
 def furnish(node: Node, vehicle: Body, simulated: Simulated) -> World:

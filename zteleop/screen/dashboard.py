@@ -30,10 +30,10 @@ class Dashboard(NamedTuple):
     idle_left: float | None = None
     """s until neutral for want of a key; None when it is neutral already"""
     steps: Steps = Steps()
-    looking: bool = False
-    """whether it is too early to say that the robot is not heard"""
-    others: str = ""
-    """which robots could have been meant, where this one is not heard"""
+    others: str | None = ""
+    """which robots could have been meant, where this one is not heard; None while it is too early to say"""
+    task: Sequence[tuple[str, str]] = ()
+    """what somebody is asked to do, each line behind its name, or behind none"""
     about: Sequence[tuple[str, str]] = ()
     """what there is to say of the device, by a short name: how sure it is which keys are held"""
     in_vain: str = ""
@@ -49,6 +49,11 @@ class Dashboard(NamedTuple):
     def status(self) -> DriveStatus | None:
         """What the robot does; None when nobody says so, or has not for too long."""
         return None if self.seen.silence else self.seen.status
+
+    @property
+    def looking(self) -> bool:
+        """Whether it is too early to say that the robot is not heard."""
+        return self.others is None
 
     @property
     def asks(self) -> bool:

@@ -16,6 +16,7 @@ def readings(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
     own += [speeds_line(d, columns)] if d.drive == "hold" else []
     return [
         *heading(d, columns, unicode),
+        *task_lines(d, columns),
         *own,
         line(9),
         *bar_lines(d, columns, unicode),
@@ -25,6 +26,18 @@ def readings(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
         line(9),
         *value_lines(d, columns, unicode),
     ]
+
+
+def task_lines(d: Dashboard, columns: int) -> list[Line]:
+    """Return what there is to do, in whole words: what is asked for stands out, what helps does not."""
+    if not d.task:
+        return []
+    words = [
+        line(1, text, "bold" if name else "dim")
+        for name, said in d.task
+        for text in wrap(f"{name}  {said}", columns)
+    ]
+    return [*words, line(9)]
 
 
 def device_lines(d: Dashboard, columns: int) -> list[Line]:

@@ -31,7 +31,8 @@ def render(dashboard: Dashboard, columns: int, rows: int, *, unicode: bool, colo
         body[-1] = [Span(f"and {hidden} more: make the window larger", "dim")]
     spare = rows - len(body) - len(bottom)
     middle = [*body, *[[Span("")]] * spare]
-    if not dashboard.keys and (dashboard.seen.odom is not None or dashboard.seen.status is not None):
+    is_heard = dashboard.seen.odom is not None or dashboard.seen.status is not None
+    if is_heard and not dashboard.keys and not dashboard.task:  # in a task nobody knows how it stands
         middle = with_picture(dashboard, middle, len(body), columns, unicode)
     return [paint(cut(spans, columns, unicode), color) for spans in [*middle, *bottom]]
 

@@ -55,7 +55,7 @@ def test_without_an_actuator_it_says_which_robots_could_have_been_meant():
 
 
 def test_before_a_robot_can_have_been_heard_it_says_that_it_listens():
-    board = dashboard("step", robot="archangel")._replace(looking=True)
+    board = dashboard("step", robot="archangel")._replace(others=None)
     shown = texts(heading(board, 80, True))
     assert shown[0].endswith("● looking")
     assert shown[1] == "listening for robot archangel"

@@ -241,3 +241,26 @@ def test_what_was_said_last_is_not_shown_as_what_is_so_once_nobody_says_so(car):
     told = {line.split()[0]: line[10:40].strip() for line in lines if line.strip()}
     assert (told["out"], told["allowed"]) == ("-", "-")
     assert not any("[375, 370]" in line and "outputting" in line for line in lines)
+
+
+TASK = [
+    ("3 of 7", "left and right turn the steering. Press enter when the wheels point straight ahead."),
+    ("", "k keeps"),
+]
+
+
+@pytest.mark.parametrize(("columns", "rows"), [(100, 30), (80, 24), (60, 20), (40, 12)])
+def test_a_task_stands_above_the_values_in_whole_words_and_nothing_pictures_what_nobody_knows(
+    car, columns, rows
+):
+    lines = shown(board(car)._replace(task=TASK), columns, rows)
+    text = " ".join(" ".join(lines).split())
+    assert (
+        "3 of 7 left and right turn the steering. Press enter when the wheels point straight ahead." in text
+    )
+    first, asked = (
+        next((row for row, line in enumerate(lines) if line.startswith(word)), rows)
+        for word in ("3 of 7", "steering")
+    )
+    assert first < asked
+    assert not any("⣿" in line for line in lines)

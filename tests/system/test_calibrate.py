@@ -1,0 +1,259 @@
+"""`zteleop calibrate`: somebody at a terminal who watches the wheels of a car that nobody knows."""
+
+import re
+import shlex
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+
+import msgspec
+import pytest
+from processes import Terminal
+from rig import NEUTRAL, Process, Rig, until
+
+from zteleop.control.settings import DONKEYCAR
+from zteleop.sim.unknown import unknown
+
+TICK = 4.08
+PAGE = (Path(__file__).parents[2] / "docs/car.md").read_text()
+TYPED = [shlex.split(line) for line in re.findall(r"^    zteleop (.+)$", PAGE, re.MULTILINE)]
+INIT, SIM, CALIBRATE, ACTUATOR, CIRCLE = TYPED[:5]
+SEED = int(SIM[-1])
+REALLY = unknown(DONKEYCAR, SEED)
+UP, DOWN, RIGHT, LEFT = ("\x1b[A", "\x1b[B", "\x1b[C", "\x1b[D")
+ENTER = "\r"
+STEERING, THROTTLE = 0, 1
+
+
+@pytest.fixture
+def rig(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Rig]:
+    with Rig(tmp_path_factory.mktemp("calibrate")) as bench:
+        yield bench
+
+
+def where(rig: Rig) -> list[str]:
+    """Return the options of whoever starts the robot."""
+    return ["--robot", rig.robot, "--no-multicast-scouting", "--listen", rig.endpoint]
+
+
+def calibrate(rig: Rig, *options: str) -> Terminal:
+    """Sit down before the first question, with a robot that takes commands."""
+    screen = rig.terminal("calibrate", *where(rig), *options, columns=100, rows=30)
+    screen.shows("1 of 7", " idle")
+    return screen
+
+
+def turn(rig: Rig, screen: Terminal, channel: int, ticks: int, keys: tuple[str, str]) -> None:
+    """Press a key until the chip is there: a robot puts out what is asked for, or says why not."""
+    moved = ticks - NEUTRAL_NOW[channel]
+    screen.type(keys[0 if moved > 0 else 1] * abs(moved))
+    until(lambda: rig.ticks[channel] == ticks, f"{ticks} at the chip, not {rig.ticks}")
+    screen.shows("throttle {1}, steering {0}".format(*rig.ticks))
+
+
+NEUTRAL_NOW = [*NEUTRAL]
+
+
+def answered(screen: Terminal, number: int) -> None:
+    screen.type(ENTER)
+    screen.shows(f"{number + 1} of 7", " idle")
+
+
+def ticks_of(pulse_us: float) -> int:
+    return round(pulse_us / TICK)
+
+
+def test_whoever_follows_the_page_drives_a_circle_with_a_car_that_nobody_knew(rig: Rig) -> None:
+    """The page's commands in their order; the answers are what somebody sees who watches the wheels."""
+    throttle, steering = REALLY.servos["throttle"], REALLY.servos["steering"]
+    (rig.folder / "config.toml").unlink()
+    assert rig.result(*INIT).returncode == 0
+    rig.set(f'drivers.simulated.path = "{rig.chip}"')
+    sim = rig.join(*SIM)
+    screen = rig.terminal(*CALIBRATE, *where(rig), columns=100, rows=30)
+    screen.shows("1 of 7", " idle")
+    pedal, wheel = (UP, DOWN), (LEFT, RIGHT)
+    begins = REALLY.settings.esc_deadband_us
+    starts = (
+        int((throttle.neutral_us + begins) / TICK) + 1,
+        -int((begins - throttle.neutral_us) // TICK) - 1,
+    )
+    NEUTRAL_NOW[:] = NEUTRAL
+    turn(rig, screen, THROTTLE, starts[0] - 1, pedal)
+    screen.type(UP)
+    sim.says("and turn at 0.")  # one tick less did not turn them
+    answered(screen, 1)
+    turn(rig, screen, THROTTLE, starts[1], pedal)
+    sim.says("and turn at -0.")
+    screen.type(ENTER)
+    screen.shows("3 of 7", "forward starts", " idle")
+    NEUTRAL_NOW[THROTTLE] = round(sum(starts) / 2)
+    until(lambda: abs((rig.ticks[THROTTLE] or 0) - NEUTRAL_NOW[THROTTLE]) <= 1, "the motor's own neutral")
+    NEUTRAL_NOW[THROTTLE] = rig.ticks[THROTTLE] or 0
+    turn(rig, screen, STEERING, ticks_of(steering.neutral_us), wheel)
+    answered(screen, 3)
+    turn(rig, screen, STEERING, ticks_of(steering.max_us), wheel)
+    sim.says("deg to the left")
+    answered(screen, 4)
+    turn(rig, screen, STEERING, ticks_of(steering.min_us), wheel)
+    sim.says("deg to the right")
+    answered(screen, 5)
+    turn(rig, screen, THROTTLE, ticks_of(throttle.max_us), pedal)
+    answered(screen, 6)
+    turn(rig, screen, THROTTLE, ticks_of(throttle.min_us), pedal)
+    screen.type(ENTER)
+    assert screen.ends() == 0
+    assert "config.toml is written" in screen.output.decode()
+    found = msgspec.toml.decode((rig.folder / "config.toml").read_bytes())["drive"]["servos"]
+    for name, servo in REALLY.servos.items():
+        for field in ("min_us", "neutral_us", "max_us"):
+            assert abs(found[name][field] - getattr(servo, field)) <= 2 * TICK, (name, field)
+    rig.run(*ACTUATOR, *where(rig)).says("obeys")
+    circle = rig.result(*CIRCLE, *rig.bus_options())
+    radius = re.search(r"a radius of (\d\.\d\d) m", circle.stdout)
+    assert radius, circle.stderr
+    assert float(radius[1]) == pytest.approx(1.0, abs=0.05)
+
+
+def test_what_is_not_finished_is_not_written(rig: Rig) -> None:
+    before = (rig.folder / "config.toml").read_text()
+    screen = calibrate(rig)
+    NEUTRAL_NOW[:] = NEUTRAL
+    turn(rig, screen, THROTTLE, 380, (UP, DOWN))
+    answered(screen, 1)
+    screen.type("q")
+    assert screen.ends() == 1
+    assert "left before the end: config.toml is as it was" in screen.output.decode()
+    assert (rig.folder / "config.toml").read_text() == before
+    assert not (rig.folder / "config.toml.bak").exists()
+    assert rig.ticks == NEUTRAL
+
+
+def test_only_what_is_asked_for_turns(rig: Rig) -> None:
+    screen = calibrate(rig)
+    screen.type(LEFT + RIGHT + LEFT + UP)
+    until(lambda: rig.ticks == (NEUTRAL[0], NEUTRAL[1] + 1), "one tick of throttle")
+    screen.type("\x1b[5~")
+    until(lambda: rig.ticks == (NEUTRAL[0], NEUTRAL[1] + 11), "ten more")
+    screen.shows("throttle 381, steering 375")
+    screen.type(" ")
+    screen.shows("throttle 370, steering 375")
+    screen.type(ENTER)
+    screen.shows("1 of 7", "it is at neutral, 370: turn it, and k keeps it there")
+    screen.type("s")
+    screen.shows("2 of 7")
+    screen.type("b")
+    screen.shows("1 of 7")
+
+
+def test_a_stop_from_anywhere_stops_it_and_what_is_stopped_is_no_answer(rig: Rig) -> None:
+    screen = calibrate(rig)
+    screen.type(UP * 5)
+    until(lambda: rig.ticks[THROTTLE] == NEUTRAL[THROTTLE] + 5, "five ticks")
+    assert rig.result("stop", *rig.bus_options()).returncode == 0
+    until(lambda: rig.ticks == NEUTRAL, "neutral")
+    screen.shows("stopped")
+    screen.type(UP * 3)
+    screen.type(ENTER)
+    screen.shows("1 of 7", "stopped")
+    assert rig.ticks == NEUTRAL
+
+
+def test_a_calibration_that_is_killed_leaves_neutral_and_nobody_behind(rig: Rig) -> None:
+    screen = calibrate(rig)
+    screen.type(UP * 5)
+    until(lambda: rig.ticks[THROTTLE] == NEUTRAL[THROTTLE] + 5, "five ticks")
+    screen.process.kill()
+    until(lambda: rig.ticks == NEUTRAL, "neutral")
+
+
+def test_a_chip_that_is_driven_already_is_said(rig: Rig) -> None:
+    rig.actuator()
+    screen = rig.terminal(
+        "calibrate", "--robot", rig.robot, "--no-multicast-scouting", "--listen", "tcp/127.0.0.1:0"
+    )
+    assert screen.ends() == 1
+    assert "is driven by process" in screen.output.decode()
+
+
+def refused(rig: Rig, *words: str) -> str:
+    result: subprocess.CompletedProcess[str] = rig.result("calibrate", *words)
+    assert result.returncode == 1, result.stdout
+    assert "Traceback" not in result.stderr
+    return " ".join(result.stderr.split())
+
+
+def test_without_a_terminal_it_says_what_it_needs(rig: Rig) -> None:
+    assert "terminal" in refused(rig, *where(rig))
+
+
+def test_a_tank_is_told_how_it_is_done(rig: Rig) -> None:
+    rig.set(
+        '[drive.mixer]\nkind = "differential"\n[drive.servos]\nleft = {channel = 0}\nright = {channel = 1}\n'
+    )
+    assert "calibrate knows cars" in refused(rig)
+
+
+DONKEY = """
+STEERING_LEFT_PWM = 440
+STEERING_RIGHT_PWM = 300
+THROTTLE_STOPPED_PWM = 372
+THROTTLE_RANGE = 100
+"""
+
+
+def test_a_donkeycars_calibration_is_taken_over_and_given_back(rig: Rig) -> None:
+    (rig.folder / "mycar").mkdir()
+    (rig.folder / "mycar/config.py").write_text(DONKEY)
+    (rig.folder / "mycar/myconfig.py").write_text("STEERING_LEFT_PWM = 450\n")
+    before = (rig.folder / "config.toml").read_text()
+    for take in (("mycar/config.py",), ("mycar",)):
+        shown = rig.result("calibrate", "--from-donkeycar", *take, "--dry-run")
+        assert "+min_us = 1224.0" in shown.stdout, shown.stderr
+    assert (rig.folder / "config.toml").read_text() == before
+    taken = rig.result("calibrate", "--from-donkeycar", "mycar")
+    assert "steering on channel 1: 300 375 450 ticks, before 290 375 460" in taken.stdout, taken.stderr
+    assert "throttle on channel 0: 272 372 472 ticks" in taken.stdout
+    assert (rig.folder / "config.toml.bak").read_text() == before
+    assert rig.result("check").returncode == 0
+    given = rig.result("calibrate", "--to-donkeycar", "back.py")
+    assert given.returncode == 0, given.stderr
+    assert '"STEERING_LEFT_PWM": 450' in (rig.folder / "back.py").read_text()
+    assert "back.py is there already" in refused(rig, "--to-donkeycar", "back.py")
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (None, "cannot read car.py: No such file or directory"),
+        (
+            DONKEY + "STEERING_LEFT_PWM = min(1, 2)\n",
+            "car.py:6: STEERING_LEFT_PWM: expected a plain value, found code",
+        ),
+        (
+            "DRIVE_TRAIN_TYPE = 'VESC'",
+            "car.py:1: DRIVE_TRAIN_TYPE: expected PWM_STEERING_THROTTLE or I2C_SERVO",
+        ),
+        (DONKEY.replace("440", "300"), "neutral_us must lie between min_us and max_us"),
+        (DONKEY.replace("440", "4000"), "steering.max_us"),
+    ],
+)
+def test_a_donkeycar_that_cannot_be_is_refused_and_nothing_is_written(
+    rig: Rig, text: str | None, words: str
+) -> None:
+    if text:
+        (rig.folder / "car.py").write_text(text)
+    before = (rig.folder / "config.toml").read_text()
+    assert words in refused(rig, "--from-donkeycar", "car.py")
+    assert (rig.folder / "config.toml").read_text() == before
+
+
+def test_a_config_that_is_wrong_already_is_said_and_stays(rig: Rig) -> None:
+    rig.set("robt = 3")
+    assert "did you mean robot?" in refused(rig, "--to-donkeycar", "x.py")
+
+
+def test_the_sim_says_what_is_seen_of_the_wheels(rig: Rig) -> None:
+    rig.actuator()
+    sim: Process = rig.join("sim", "car", "--unknown")
+    sim.says("its wheels point ")

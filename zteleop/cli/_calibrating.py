@@ -1,0 +1,100 @@
+"""A robot whose servos may turn as far as any, and somebody who watches the wheels and answers."""
+
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import Any
+
+from msgspec.structs import replace
+
+from zteleop.bus import clock
+from zteleop.bus.node import Node
+from zteleop.cli import _options
+from zteleop.cli._driving import drive_at_terminal
+from zteleop.cli._settings_file import PULSES, SettingsFile, of_servos, tick_of
+from zteleop.config import Config
+from zteleop.control.measuring import STEPS, Measuring
+from zteleop.control.servo import Servo
+from zteleop.errors import BusError, ConfigError
+from zteleop.inputs.tuner import Tuner
+from zteleop.machine.leash import Process, leashed
+from zteleop.screen.dashboard import Dashboard
+from zteleop.screen.view import View
+from zteleop.terminal.typed import Typed, open_terminal
+
+START = 10.0
+"""s in which the robot is ready, its ESC armed"""
+SLOW = 0.1
+"""m/s at full throttle, as this robot is told: no limit of speed then keeps a motor from its end"""
+
+
+def find_out(file: SettingsFile, settings: Config, robot: str) -> dict[str, Servo] | None:
+    """Return both servos as somebody found them; None when he left before the end.
+
+    Raises BusError when the robot does not start, ConfigError when what was found makes no servo.
+    """
+    measuring = Measuring(settings.drive.servos, tick_of(settings))
+    while measuring.number < len(STEPS):
+        with running(file, settings, robot, measuring) as node:
+            tuner = Tuner(Typed(open_terminal()), measuring)
+            known = Dashboard(robot, "step", settings.speeds, bound=tuner.bound)
+            drive_at_terminal(node, settings, tuner, "keyboard", known, watch=seen_by(tuner), task=tuner.task)
+        if tuner.gave_up:
+            return None
+        measuring.go_on()
+    try:
+        return measuring.servos()
+    except ValueError as error:
+        raise ConfigError(f"what was found makes no car: {error}; nothing is written") from None
+
+
+def seen_by(tuner: Tuner) -> Callable[[View], None]:
+    """Return what tells a tuner what leaves the chip."""
+
+    def see(view: View) -> None:
+        tuner.see(view.status.pulses if view.status and not view.silence else ())
+
+    return see
+
+
+@contextmanager
+def running(file: SettingsFile, settings: Config, robot: str, measuring: Measuring) -> Iterator[Node]:
+    """Run the actuator of the robot itself, with wide servos, and join the bus beside it."""
+    with ExitStack() as stack:
+        folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="zteleop-calibrate-")))
+        log = stack.enter_context((folder / "log").open("w"))
+        (folder / "config.toml").write_text(wide(file, settings, robot, measuring), encoding="utf-8")
+        verb = ("actuator", "--config", str(folder / "config.toml"), "--robot", robot)
+        process = stack.enter_context(leashed(verb, log, {}))
+        beside = _options.beside_robot(replace(settings, robot=robot))
+        node = stack.enter_context(_options.join("calibrate", beside))
+        await_ready(node, process, Path(log.name))
+        yield node
+
+
+def wide(file: SettingsFile, settings: Config, robot: str, measuring: Measuring) -> str:
+    """Return the text of a config that is the robot's, but for how far its servos turn."""
+    bus = settings.bus
+    changes: dict[tuple[str, ...], Any] = {
+        **of_servos(measuring.wide(), (*PULSES, "dead_zone_us")),
+        ("drive", "mixer", "kind"): settings.drive.mixer.kind,
+        ("drive", "mixer", "max_speed"): SLOW,
+        ("blackbox",): False,
+        ("journal",): "off",
+        **{("bus", name): getattr(bus, name) for name in ("mode", "connect", "listen", "multicast")},
+    }
+    if settings.driver == "simulated":
+        changes["drivers", "simulated", "path"] = settings.driver_settings("simulated", robot)["path"]
+    return file.changed(changes)[0]
+
+
+def await_ready(node: Node, process: Process, log: Path) -> None:
+    """Wait until the robot takes commands; raises BusError with its last words when it does not."""
+    give_up = clock.now() + START
+    while clock.now() < give_up and process.poll() is None:
+        if node.membership.heard().ready:
+            return
+        node.spin(0.01)
+    words = log.read_text().strip().splitlines()
+    raise BusError(f"the robot did not start: {words[-1] if words else 'it said nothing'}")

@@ -1,0 +1,100 @@
+"""A config file from a Donkeycar's, and back."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from msgspec.structs import replace
+
+from zteleop.cli._settings_file import PULSES, of_servos
+from zteleop.config import Config
+from zteleop.control.servo import Servo
+from zteleop.drivers.pca9685 import Pca9685Settings
+from zteleop.drivers.registers import prescale, tick_us
+from zteleop.errors import ConfigError
+from zteleop.text import donkeycar
+from zteleop.text.donkeycar import Donkeycar, Output
+
+LONGEST = 2**20
+"""bytes of a Donkeycar file"""
+DONKEY_TICK_US = tick_us(prescale(donkeycar.FREQUENCY_HZ))
+"""of its chip, as its driver sets it"""
+
+
+def export(settings: Config, path: Path, dry_run: bool) -> None:
+    """Write a Donkeycar file; raises ConfigError for a vehicle that is none, and a file that is there."""
+    servos = settings.drive.servos
+    if not {"steering", "throttle"} <= servos.keys():
+        raise ConfigError(
+            f"Donkeycar knows cars with steering and throttle; this one has {', '.join(sorted(servos))}"
+        )
+    chip = Pca9685Settings(**settings.drivers.get("pca9685", {}))
+    car = Donkeycar(in_counts(servos["steering"]), in_counts(servos["throttle"]), chip.bus, chip.address)
+    text = donkeycar.written(car)
+    if dry_run:
+        print(text, end="")
+        return
+    try:
+        with path.open("x", encoding="utf-8") as out:
+            out.write(text)
+    except FileExistsError:
+        raise ConfigError(f"{path} is there already, and stays; say another name, or --dry-run") from None
+    except OSError as error:
+        raise ConfigError(f"cannot write {path}: {error.strerror}") from None
+    print(f"{path} is written: put it beside your Donkeycar's config.py, as myconfig.py")
+
+
+def in_counts(servo: Servo) -> Output:
+    """Return a servo in Donkeycar's counts."""
+    return Output(servo.channel, *(getattr(servo, field) / DONKEY_TICK_US for field in PULSES))
+
+
+def imported(settings: Config, path: Path) -> Iterator[tuple[tuple[str, ...], Any]]:
+    """Yield what a Donkeycar file changes in settings."""
+    car = donkeycar.read((str(file), text_of(file)) for file in donkey_files(path))
+    servos = settings.drive.servos
+    if not {"steering", "throttle"} <= servos.keys():
+        raise ConfigError(
+            f"a Donkeycar has steering and throttle; this vehicle has {', '.join(sorted(servos))}"
+        )
+    fields = (*PULSES, "dead_zone_us")
+    yield from of_servos({"throttle": taken(servos["throttle"], car.throttle)}, fields).items()
+    yield from of_servos({"steering": taken(servos["steering"], car.steering)}).items()
+    for name, value in (("bus", car.bus), ("address", car.address)):
+        if value is not None and value != getattr(
+            Pca9685Settings(**settings.drivers.get("pca9685", {})), name
+        ):
+            yield ("drivers", "pca9685", name), value
+
+
+def taken(servo: Servo, output: Output) -> Servo:
+    """Return a servo with the pulses of a Donkeycar."""
+    channel = servo.channel if output.channel is None else output.channel
+    least, neutral, most = (ticks * DONKEY_TICK_US for ticks in output[1:])
+    try:
+        return replace(servo, channel=channel, min_us=least, neutral_us=neutral, max_us=most)
+    except ValueError as error:
+        raise ConfigError(
+            f"its pulses, {output.least:g} {output.neutral:g} {output.most:g} ticks: {error}"
+        ) from None
+
+
+def donkey_files(path: Path) -> list[Path]:
+    """Return the file meant, and the myconfig.py beside a config.py, which Donkeycar reads after it."""
+    if path.is_dir():
+        path = path / "config.py"
+    beside = path.with_name("myconfig.py")
+    return [path, beside] if path.name == "config.py" and beside.exists() else [path]
+
+
+def text_of(path: Path) -> str:
+    try:
+        with path.open("rb") as file:
+            text = file.read(LONGEST + 1)
+        if len(text) > LONGEST:
+            raise ConfigError(f"{path}: expected at most {LONGEST} bytes of settings, found more")
+        return text.decode()
+    except OSError as error:
+        raise ConfigError(f"cannot read {path}: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise ConfigError(f"{path}: expected a Donkeycar config in Python, found no text") from None
