@@ -54,6 +54,14 @@ def turn(rig: Rig, screen: Terminal, channel: int, ticks: int, keys: tuple[str, 
 NEUTRAL_NOW = [*NEUTRAL]
 
 
+def brake(rig: Rig, screen: Terminal, starts: int) -> None:
+    """Do what the screen says of an ESC that brakes first: below neutral once, space, and then again."""
+    turn(rig, screen, THROTTLE, starts - 10, (UP, DOWN))
+    screen.type(" ")
+    until(lambda: rig.ticks[THROTTLE] == NEUTRAL_NOW[THROTTLE], "neutral")
+    screen.shows("throttle {1}, steering {0}".format(*rig.ticks))
+
+
 def answered(screen: Terminal, number: int) -> None:
     screen.type(ENTER)
     screen.shows(f"{number + 1} of 7", " idle")
@@ -83,6 +91,7 @@ def test_whoever_follows_the_page_drives_a_circle_with_a_car_that_nobody_knew(ri
     screen.type(UP)
     sim.says("and turn at 0.")  # one tick less did not turn them
     answered(screen, 1)
+    brake(rig, screen, starts[1])
     turn(rig, screen, THROTTLE, starts[1], pedal)
     sim.says("and turn at -0.")
     screen.type(ENTER)
@@ -100,6 +109,7 @@ def test_whoever_follows_the_page_drives_a_circle_with_a_car_that_nobody_knew(ri
     answered(screen, 5)
     turn(rig, screen, THROTTLE, ticks_of(throttle.max_us), pedal)
     answered(screen, 6)
+    brake(rig, screen, starts[1])
     turn(rig, screen, THROTTLE, ticks_of(throttle.min_us), pedal)
     screen.type(ENTER)
     assert screen.ends() == 0

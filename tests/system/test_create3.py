@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterator
+from math import atan2
 
 import pytest
 from rig import Process, Rig, hear, until
@@ -11,6 +12,7 @@ from zteleop.control.create3 import MAX_TURN, SAFE_SPEED, WHEEL_RADIUS
 from zteleop.messages import (
     BatteryState,
     HazardDetectionVector,
+    Imu,
     InterfaceButtons,
     Odometry,
     StopStatus,
@@ -155,3 +157,16 @@ def test_notes_and_lights_are_told(rig: Rig, sim: Process) -> None:
     sim.says("its lights are 255 0 0, 255 0 0")
     ask(rig, "pub", "cmd_lightring", "LightringLeds", leds.replace("true", "false"), "--once")
     sim.says("its lights are its own again")
+
+
+@pytest.mark.usefixtures("sim")
+def test_it_feels_how_it_turns_and_knows_where_it_looks(rig: Rig, node: Node) -> None:
+    imus = node.subscription("imu", Imu)
+    still = hear(imus, lambda felt: felt.header.frame_id == "imu", "an inertial unit")
+    assert still.linear_acceleration.z == pytest.approx(9.81)
+    drive = rig.join("drive", "0m/s", "1rad/s", "--for", "1s")
+    hear(imus, lambda felt: felt.angular_velocity.z == pytest.approx(1.0, abs=0.05), "a turn to the left")
+    assert drive.ends() == 0
+    hear(imus, lambda felt: abs(felt.angular_velocity.z) < 0.01, "it stands")
+    turned = hear(imus, lambda felt: felt.orientation.z > 0, "another heading")
+    assert 0.5 < 2 * atan2(turned.orientation.z, turned.orientation.w) < 1.5

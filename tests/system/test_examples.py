@@ -12,7 +12,16 @@ from rig import NEUTRAL, ROOT, Process, Rig, Terminal, until
 
 EXAMPLES = ROOT / "examples"
 TESTS = {"test_there_and_back"}
-TRIED = {"publisher", "subscriber", "circle", "keys", "donkeycar", "stranger", "there_and_back"}
+TRIED = {
+    "line_follower",
+    "publisher",
+    "subscriber",
+    "circle",
+    "keys",
+    "donkeycar",
+    "stranger",
+    "there_and_back",
+}
 
 
 @pytest.fixture(scope="module")
@@ -123,3 +132,21 @@ def test_a_donkeycar_program_steers_by_pulses(rig: Rig) -> None:
     until(lambda: rig.ticks == (420, 380), "right")
     ends(donkeycar, signal.SIGTERM)
     until(lambda: rig.ticks == NEUTRAL, "rest")
+
+
+def test_a_line_is_followed_by_what_the_camera_sees(tmp_path_factory: pytest.TempPathFactory) -> None:
+    with Rig(tmp_path_factory.mktemp("line")) as rig:
+        rig.robot = f"line-{os.getpid()}"
+        rig.run("actuator", "--robot", rig.robot).says("obeys")
+        sim = rig.run("sim", "--robot", rig.robot, "--scene", "track", "--camera")
+        follower = start(rig, "line_follower")
+        until(lambda: rig.ticks[1] > NEUTRAL[1] and rolled(sim) > 6, "the first bend")
+        ends(follower, signal.SIGINT)
+        until(lambda: rig.ticks == NEUTRAL, "rest")
+        assert "no line" not in follower.text
+        assert "it stands at" not in sim.text
+
+
+def rolled(sim: Process) -> float:
+    """Return how far a simulated robot says that it came, m."""
+    return max(map(float, re.findall(r"rolled (\d+\.\d)", sim.text)), default=0.0)

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 from zteleop.messages import (
     Beat,
+    CompressedImage,
     DriveStatus,
     Int16MultiArray,
     InterfaceButtons,
@@ -59,6 +60,7 @@ TOPICS = {
         Topic("odom", (Odometry,), every=_SAID),
         Topic("range", (Range,), every=0.1),
         Topic("scene", (String,), every=1.0),
+        Topic("camera/image/compressed", (CompressedImage,), depth=1, every=_SAID),
         Topic("interface_buttons", (InterfaceButtons,)),
         Topic("log", (Log,), depth=100),
     )
@@ -69,5 +71,7 @@ ALIASES = {alias: topic.name for topic in TOPICS.values() for alias in topic.ali
 
 def topic_of(path: str) -> Topic:
     """Return the table's topic that a path such as `cmd_vel/keyboard` belongs to, else a plain one."""
+    if path in TOPICS:
+        return TOPICS[path]
     head = TOPICS.get(path.partition("/")[0])
-    return head if head and (head.name == path or head.command) else Topic(path, ())
+    return head if head and head.command else Topic(path, ())

@@ -5,7 +5,7 @@ from contextlib import suppress
 
 from zteleop.config import Config
 from zteleop.control.calibration import Calibration
-from zteleop.drivers import PulseDriver, open_driver, registers, settings_of
+from zteleop.drivers import PulseDriver, open_driver, registers, settings_of, tick_us
 from zteleop.drivers.simulated import open_registers
 from zteleop.errors import DeviceError
 
@@ -32,8 +32,7 @@ def open_eye(settings: Config, robot: str, chip: str) -> Eye:
     """Look at a simulated chip in its file, which costs the robot nothing; without one at the real chip."""
     values = settings.driver_settings(settings.driver, robot)
     checked = settings_of(settings.driver, values)
-    tick_us = registers.tick_us(registers.prescale(checked.frequency_hz, checked.osc_hz), checked.osc_hz)
-    calibration = Calibration(settings.drive.servos, tick_us)
+    calibration = Calibration(settings.drive.servos, tick_us(settings.driver, values))
     channels = list(calibration.neutral_us)
     if not chip:
         driver = open_driver(settings.driver, values, exclusive=False)

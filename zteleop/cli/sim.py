@@ -55,6 +55,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="a car whose servo and motor are not what config.toml says: find out with zteleop calibrate",
     )
+    parser.add_argument(
+        "--camera", action="store_true", help="say what it sees ahead, on camera/image/compressed"
+    )
     _options.add_parent(parser)
 
 
@@ -71,7 +74,9 @@ def run(arguments: argparse.Namespace) -> None:
         node.log.info(f"moves {robot}, a simulated {kind}, by the pulses in {driver['path']}")
         unlimited = msgspec.structs.replace(settings.drive, limits=VEHICLES[kind].limits)
         node.every(TELL_AFTER)(Attendant(node, kind, to_vehicle(unlimited, 1.0)).look)
-        simulated = Simulated(kind, scene, LEVELS[arguments.noise], arguments.seed, arguments.unknown)
+        simulated = Simulated(
+            kind, scene, LEVELS[arguments.noise], arguments.seed, arguments.unknown, arguments.camera
+        )
         simulator.run(node, settings.drive, driver["path"], lambda line: print(line, flush=True), simulated)
 
 

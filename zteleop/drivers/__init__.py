@@ -6,7 +6,6 @@ from typing import Any, Protocol
 
 import msgspec
 
-from zteleop.drivers import registers
 from zteleop.drivers.output_enable import OutputEnable, open_output_enable
 from zteleop.errors import ConfigError, nearest
 
@@ -18,7 +17,7 @@ class PulseDriver(Protocol):
     """
 
     tick_us: float
-    """Length of one of the 4096 counts of a period, from the real prescale."""
+    """Length of one of the 4096 counts of a period, as the chip really makes it."""
 
     arming: float
     """s that the ESC must see neutral before the first command."""
@@ -30,7 +29,7 @@ class PulseDriver(Protocol):
         """Bring the chip up with these channels at neutral, and read them back."""
 
     def write(self, pulse_us: Mapping[int, float]) -> None:
-        """Write every channel given, in one I2C transaction, whatever they were before."""
+        """Write every channel given, at once where the chip can, whatever they were before."""
 
     def read(self, channels: Iterable[int]) -> dict[int, float | None]:
         """Return the pulse widths in microseconds that leave the chip now; None where there are none."""
@@ -45,6 +44,7 @@ class PulseDriver(Protocol):
 DRIVERS = {
     "pca9685": "zteleop.drivers.pca9685",
     "simulated": "zteleop.drivers.simulated",
+    "sysfs_pwm": "zteleop.drivers.sysfs_pwm",
 }
 
 
@@ -81,7 +81,8 @@ def settings_kind(name: str) -> Any:
 def tick_us(name: str, settings: Mapping[str, object]) -> float:
     """Return the length of a count, in microseconds, that a driver with these settings will have."""
     checked = settings_of(name, settings)
-    return registers.tick_us(registers.prescale(checked.frequency_hz, checked.osc_hz), checked.osc_hz)
+    counts: float = import_module(DRIVERS[name]).count_us(checked)
+    return counts
 
 
 def output_enable(name: str, settings: Mapping[str, object] | msgspec.Struct) -> OutputEnable | None:

@@ -58,6 +58,11 @@ class Pca9685Settings(Struct, frozen=True, forbid_unknown_fields=True):
 SETTINGS = Pca9685Settings
 
 
+def count_us(settings: Pca9685Settings) -> float:
+    """Return the length of one of the 4096 counts of a period, in us."""
+    return tick_us(prescale(settings.frequency_hz, settings.osc_hz), settings.osc_hz)
+
+
 class Pca9685:
     """Writes pulses; between writes, and after its process, the chip repeats the last ones for ever."""
 

@@ -46,22 +46,22 @@ class Port:
 
     def get(self, register: int) -> int:
         """Return one register."""
-        return _again(lambda: self._i2c.read_byte_data(self._address, register))
+        return again(lambda: self._i2c.read_byte_data(self._address, register))
 
     def set(self, register: int, value: int) -> None:
         """Write one register."""
-        _again(lambda: self._i2c.write_byte_data(self._address, register, value))
+        again(lambda: self._i2c.write_byte_data(self._address, register, value))
 
     def get_block(self, register: int, length: int) -> bytes:
         """Return up to 32 registers from `register` on."""
-        return bytes(_again(lambda: self._i2c.read_i2c_block_data(self._address, register, length)))
+        return bytes(again(lambda: self._i2c.read_i2c_block_data(self._address, register, length)))
 
     def write(self, blocks: Sequence[Block]) -> None:
         """Write all blocks in one transaction, and after an error all of them again.
 
         A torn transfer ends in a STOP too, which latches half of it.
         """
-        _again(lambda: self._transact(blocks))
+        again(lambda: self._transact(blocks))
 
     def verify(self, wanted: Mapping[int, int]) -> None:
         """Raise DeviceError naming the registers that do not hold what was written."""
@@ -86,7 +86,7 @@ class Port:
             self._i2c.write_blocks(self._address, blocks)
 
 
-def _again(transfer: Callable[[], T]) -> T:
+def again(transfer: Callable[[], T]) -> T:
     """Do a transfer, and after an error at once again: twice at most, and not on a slow bus."""
     began = time.monotonic()
     for attempt in range(1, ATTEMPTS + 1):

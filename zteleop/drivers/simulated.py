@@ -17,7 +17,7 @@ from zteleop.drivers.chip_file import FAULTS, ChipMemory, map_file
 from zteleop.drivers.faults import Fault, cut, next_fault
 from zteleop.drivers.i2c import EREMOTEIO, Block
 from zteleop.drivers.pca9685 import Pca9685, Pca9685Settings
-from zteleop.drivers.registers import OSCILLATOR_HZ, prescale
+from zteleop.drivers.registers import OSCILLATOR_HZ, prescale, tick_us
 
 LOOKS = 8
 
@@ -35,6 +35,11 @@ class SimulatedSettings(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 SETTINGS = SimulatedSettings
+
+
+def count_us(settings: SimulatedSettings) -> float:
+    """Return the length of one of the 4096 counts of a period, in us."""
+    return tick_us(prescale(settings.frequency_hz, settings.osc_hz), settings.osc_hz)
 
 
 class SimulatedI2C:

@@ -12,6 +12,7 @@ from zteleop.terminal.typed import Keys
 
 KEYMAP = "donkey"
 OWN = {"space": "neutral", "k": "nothing", **dict.fromkeys((*FAR, *ANSWERS), "nothing")}
+BACKWARD = ("reverse starts", "full reverse")
 TOLD = ("stop robot", "release robot", "neutral", "quit", "help")
 """the actions that the bottom line names"""
 
@@ -75,7 +76,7 @@ class Tuner(Keyboard):
         one, other = TURNS[step.axis]
         number = f"{min(self._measuring.number + 1, len(STEPS))} of {len(STEPS)}"
         words = [(number, f"{one} and {other} turn the {step.axis}. Press enter when {step.asks}.")]
-        if step.find == "reverse starts":
+        if step.find in BACKWARD:
             words.append(("", "many an ESC brakes first: then space, and down once more"))
         return [*words, ("", f"{', '.join(FAR)}: ten ticks; k keeps it there; s: as it was; b: back")]
 

@@ -9,6 +9,7 @@ from zteleop.messages import (
     BatteryState,
     HazardDetectionVector,
     Header,
+    Imu,
     InterfaceButtons,
     LightringLeds,
     Log,
@@ -24,6 +25,7 @@ from zteleop.sim.create3.hazards import touch
 from zteleop.sim.create3.interface_buttons import NAMES, Buttons, Name
 from zteleop.sim.create3.lightring import Lightring
 from zteleop.sim.create3.notes import Notes
+from zteleop.sim.inertial import Inertial
 from zteleop.sim.world import World
 
 PACK = BatterySettings(
@@ -43,10 +45,11 @@ SENSED, TOLD, NOTED = 0.05, 1.0, 0.05
 class Equipment:
     """All that a simulated Create 3 says and hears of itself; `world` is what its bumpers feel."""
 
-    def __init__(self, node: Node, robot: Create3, world: World | None) -> None:
+    def __init__(self, node: Node, robot: Create3, world: World | None, unit: Inertial | None = None) -> None:
         self._node = node
         self._robot = robot
         self._world = world
+        self._unit = unit or Inertial()
         self._buttons = Buttons()
         self._battery = Battery(PACK)
         self._lights = Lightring()
@@ -69,6 +72,7 @@ class Equipment:
         hazards = node.publisher("hazard_detection", HazardDetectionVector)
         battery = node.publisher("battery_state", BatteryState)
         stops = node.publisher("stop_status", StopStatus)
+        imus = node.publisher("imu", Imu)
 
         @node.every(SENSED)
         def sense() -> None:
@@ -78,6 +82,7 @@ class Equipment:
             speeds.publish(WheelVels(header, *robot.wheels.turning))
             felt = [*robot.hazards, *(touch(self._world).hazards if self._world else ())]
             hazards.publish(HazardDetectionVector(header, [hazard.message(now) for hazard in felt]))
+            imus.publish(self._unit.measure(Header(now, "imu"), robot, SENSED))
 
         @node.every(TOLD)
         def tell() -> None:

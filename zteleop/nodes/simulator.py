@@ -15,10 +15,13 @@ from zteleop.drivers.simulated import open_registers
 from zteleop.errors import ConfigError
 from zteleop.messages import Header, Odometry, Range, String
 from zteleop.nodes.create3 import Equipment
+from zteleop.nodes.picture import take_pictures
 from zteleop.sim import make_vehicle
 from zteleop.sim.body import Body
+from zteleop.sim.camera import Camera
 from zteleop.sim.car import Car
 from zteleop.sim.create3.body import Create3
+from zteleop.sim.inertial import Inertial
 from zteleop.sim.noise import NONE, Noise
 from zteleop.sim.odometer import Odometer
 from zteleop.sim.plan import plan, to_text
@@ -48,6 +51,8 @@ class Simulated(NamedTuple):
     seed: int = 0
     unknown: bool = False
     """its servo and its ESC are not what the settings say"""
+    camera: bool = False
+    """it has one, and says what that sees"""
 
 
 def run(
@@ -62,6 +67,8 @@ def run(
     Raises ConfigError for a scene in which it does not fit.
     """
     simulated = simulated or Simulated()
+    if simulated.camera:
+        simulated = simulated._replace(scene=simulated.scene or Scene())
     if simulated.unknown:
         vehicle: Body = unknown_car(settings, simulated.seed)
     elif simulated.kind == "create3":
@@ -70,8 +77,10 @@ def run(
         vehicle = make_vehicle(settings.mixer, settings.servos)
     vehicle.odometer = Odometer(simulated.noise, Random(simulated.seed))
     world = furnish(node, vehicle, simulated) if simulated.scene else None
+    if world and simulated.camera:
+        take_pictures(node, Camera(simulated.scene or Scene()), world)
     if isinstance(vehicle, Create3):
-        Equipment(node, vehicle, world)
+        Equipment(node, vehicle, world, Inertial(simulated.noise, Random(simulated.seed)))
     registers = open_registers(path)
     odoms = node.publisher("odom", Odometry)
     channels = [servo.channel for servo in settings.servos.values()]

@@ -9,7 +9,7 @@ from msgspec import Meta
 from zteleop.control.mixer import Ackermann
 from zteleop.control.servo import Servo
 from zteleop.sim.body import Body, Disc, Pulses
-from zteleop.sim.esc import EscSettings, fraction
+from zteleop.sim.esc import Esc, EscSettings, fraction
 
 
 class CarSettings(EscSettings, frozen=True, forbid_unknown_fields=True):
@@ -29,6 +29,7 @@ class Car(Body):
         self._mixer = mixer
         self.discs = tuple(Disc(a * mixer.wheelbase, r * mixer.wheelbase) for a, r in DISCS)
         self._settings = settings or CarSettings()
+        self._esc = Esc(self._settings)
         self._steering = servos["steering"]
         self._throttle = servos["throttle"]
         self.steering_angle = 0.0
@@ -37,8 +38,8 @@ class Car(Body):
     def move(self, pulse_us: Pulses, dt: float) -> None:
         """Turn the front wheels and the motor towards what the pulses ask for."""
         self._steer(pulse_us.get(self._steering.channel), dt)
-        throttle = self._settings.throttle(self._throttle, pulse_us.get(self._throttle.channel))
-        self.speed = self._settings.spin(self.speed, throttle * self._mixer.max_speed, dt)
+        pulse = pulse_us.get(self._throttle.channel)
+        self.speed = self._esc.drive(self.speed, self._throttle, pulse, self._mixer.max_speed, dt)
         self.yaw_rate = self.speed * tan(self.steering_angle) / self._mixer.wheelbase
 
     def _steer(self, pulse_us: float | None, dt: float) -> None:

@@ -1,11 +1,13 @@
 """An electronic speed controller and its motor: from a pulse to the speed of a wheel."""
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from msgspec import Meta, Struct
 
 from zteleop.control.servo import Servo
 
+Reverse = Literal["direct", "double_tap", "none"]
+"""What a pulse below neutral does: drive backward; brake, and drive when it comes again; only brake."""
 NotNegative = Annotated[float, Meta(ge=0, le=1000)]
 SHORTEST_US, LONGEST_US = 500.0, 2500.0
 
@@ -19,6 +21,8 @@ class EscSettings(Struct, frozen=True, forbid_unknown_fields=True):
     """m/s^2 that stop a wheel nobody drives, beside the motor's drag."""
     grip: Annotated[float, Meta(gt=0, le=100)] = 6.0
     """m/s^2 that the tyres can take."""
+    reverse: Reverse = "direct"
+    """as on crawlers; most cars' are `double_tap`"""
 
     def throttle(self, servo: Servo, pulse_us: float | None) -> float:
         """Return the fraction, -1..1, that the motor is told; 0 without a pulse, as at neutral."""
@@ -35,6 +39,35 @@ class EscSettings(Struct, frozen=True, forbid_unknown_fields=True):
             change -= drag if speed > 0 else -drag
         after = speed + max(-self.grip * dt, min(self.grip * dt, change))
         return 0.0 if wanted == 0.0 and after * speed < 0 else after  # braking never ends in reverse
+
+
+class Esc:
+    """What one speed controller remembers: whether a pulse below neutral brakes, or drives backward."""
+
+    def __init__(self, settings: EscSettings) -> None:
+        self._settings = settings
+        self._braked = False
+        """below neutral since it was last above"""
+        self._reverses = settings.reverse == "direct"
+
+    def drive(self, speed: float, servo: Servo, pulse_us: float | None, most: float, dt: float) -> float:
+        """Return the speed in m/s of a wheel after `dt` s of a pulse; `most` is at full throttle."""
+        settings, throttle = self._settings, self._settings.throttle(servo, pulse_us)
+        self._note(throttle)
+        if throttle < 0 and not self._reverses:
+            slower = settings.grip * dt
+            return max(0.0, speed - slower) if speed > 0 else min(0.0, speed + slower)
+        return settings.spin(speed, throttle * most, dt)
+
+    def _note(self, throttle: float) -> None:
+        if self._settings.reverse != "double_tap":
+            return
+        if throttle > 0:
+            self._braked = self._reverses = False
+        elif throttle == 0:
+            self._reverses = self._braked
+        else:
+            self._braked = True
 
 
 def fraction(servo: Servo, pulse_us: float | None) -> float | None:

@@ -18,6 +18,8 @@ class Noise(Struct, frozen=True, forbid_unknown_fields=True):
     """rad that its heading is off after one metre"""
     range: Spread = 0.0
     """m, of each reading of a range sensor"""
+    gyro: Spread = 0.0
+    """rad/s, of each reading of an inertial unit"""
 
     @property
     def moves(self) -> bool:
@@ -28,7 +30,7 @@ class Noise(Struct, frozen=True, forbid_unknown_fields=True):
 NONE = Noise()
 LEVELS = {
     "none": NONE,
-    "low": Noise(way=0.01, turn=0.01, drift=0.01, range=0.005),
-    "high": Noise(way=0.05, turn=0.05, drift=0.05, range=0.03),
+    "low": Noise(way=0.01, turn=0.01, drift=0.01, range=0.005, gyro=0.002),
+    "high": Noise(way=0.05, turn=0.05, drift=0.05, range=0.03, gyro=0.02),
 }
 """What can be asked for by name: exact; a good robot on a good floor; cheap wheels on a carpet."""

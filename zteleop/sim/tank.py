@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from zteleop.control.mixer import Differential
 from zteleop.control.servo import Servo
 from zteleop.sim.body import Body, Disc, Pulses
-from zteleop.sim.esc import EscSettings
+from zteleop.sim.esc import Esc, EscSettings
 
 RADIUS = 0.6
 """of the track"""
@@ -18,7 +18,8 @@ class Tank(Body):
         super().__init__()
         self._mixer = mixer
         self.discs = (Disc(0.0, RADIUS * mixer.track),)
-        self._settings = settings or EscSettings()
+        settings = settings or EscSettings()
+        self._escs = Esc(settings), Esc(settings)
         self._servos = servos["left"], servos["right"]
         self.wheel_speeds = (0.0, 0.0)
         """m/s, left and right."""
@@ -26,8 +27,8 @@ class Tank(Body):
     def move(self, pulse_us: Pulses, dt: float) -> None:
         """Turn both wheels towards what their pulses ask for."""
         left, right = (
-            self._spin(servo, pulse_us, speed, dt)
-            for servo, speed in zip(self._servos, self.wheel_speeds, strict=True)
+            esc.drive(speed, servo, pulse_us.get(servo.channel), self._mixer.max_speed, dt)
+            for esc, servo, speed in zip(self._escs, self._servos, self.wheel_speeds, strict=True)
         )
         self.wheel_speeds = left, right
         self.speed, self.yaw_rate = (left + right) / 2, (right - left) / self._mixer.track
@@ -36,7 +37,3 @@ class Tank(Body):
         """Stand, both wheels with it."""
         super().halt()
         self.wheel_speeds = (0.0, 0.0)
-
-    def _spin(self, servo: Servo, pulse_us: Pulses, speed: float, dt: float) -> float:
-        throttle = self._settings.throttle(servo, pulse_us.get(servo.channel))
-        return self._settings.spin(speed, throttle * self._mixer.max_speed, dt)

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from zteleop.control.servo import Servo
 from zteleop.sim.car import CarSettings
+from zteleop.sim.esc import Reverse
 
 STRAIGHT_OFF, NEUTRAL_OFF = 60.0, 30.0
 """us, at most, by which neutral is somewhere else"""
@@ -13,6 +14,7 @@ REACH = (250.0, 400.0)
 """us from neutral to an end"""
 DEADBAND = (10.0, 40.0)
 """us to either side of neutral in which the motor rests"""
+STYLES: tuple[Reverse, ...] = ("direct", "double_tap")
 
 
 class Unknown(NamedTuple):
@@ -26,7 +28,8 @@ def unknown(servos: Mapping[str, Servo], seed: int) -> Unknown:
     steering = _servo(chance, servos["steering"], STRAIGHT_OFF, mirrored=chance.random() < 0.5)
     throttle = _servo(chance, servos["throttle"], NEUTRAL_OFF, mirrored=False)
     deadband = round(chance.uniform(*DEADBAND), 1)
-    return Unknown({"steering": steering, "throttle": throttle}, CarSettings(esc_deadband_us=deadband))
+    settings = CarSettings(esc_deadband_us=deadband, reverse=chance.choice(STYLES))
+    return Unknown({"steering": steering, "throttle": throttle}, settings)
 
 
 def _servo(chance: Random, known: Servo, off: float, *, mirrored: bool) -> Servo:

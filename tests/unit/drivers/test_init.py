@@ -61,7 +61,11 @@ def test_arming_for_no_time_there_is_is_refused(name: str, seconds: object) -> N
         open_driver(name, {"arming": seconds})
 
 
-@pytest.mark.parametrize("name", DRIVERS)
+@pytest.mark.parametrize("name", ["pca9685", "simulated"])
 def test_the_tick_of_settings_is_known_before_the_chip_is_opened(name: str) -> None:
     assert tick_us(name, {"frequency_hz": 50}) == pytest.approx(4.88)
     assert tick_us(name, {"osc_hz": 26e6}) == pytest.approx(106 / 26)
+
+
+def test_the_tick_of_a_chip_without_a_prescaler_is_a_4096th_of_its_period() -> None:
+    assert tick_us("sysfs_pwm", {"frequency_hz": 50}) == 20_000 / 4096

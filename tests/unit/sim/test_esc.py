@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from zteleop.control.servo import Servo
-from zteleop.sim.esc import EscSettings, fraction
+from zteleop.sim.esc import Esc, EscSettings, Reverse, fraction
 
 ESC = EscSettings()
 
@@ -60,3 +60,52 @@ def test_the_tyres_hold_no_more_than_their_grip(speed: float, wanted: float, dt:
 @given(st.floats(-10, 10), st.floats(1e-6, 1.0))
 def test_braking_never_ends_in_reverse(speed: float, dt: float) -> None:
     assert ESC.spin(speed, 0.0, dt) * speed >= 0
+
+
+FORWARD, NEUTRAL, BACK = 1700.0, 1500.0, 1300.0
+
+
+def after(reverse: Reverse, *pulses: float) -> float:
+    """Return the speed after half a second of each pulse in turn."""
+    esc, speed = Esc(EscSettings(reverse=reverse)), 0.0
+    for pulse in pulses:
+        for _ in range(50):
+            speed = esc.drive(speed, Servo(0), pulse, 3.0, 0.01)
+    return speed
+
+
+def test_a_direct_one_reverses_at_once() -> None:
+    assert after("direct", FORWARD, BACK) < -0.5
+
+
+def test_one_that_is_tapped_twice_brakes_first_however_long_and_then_reverses() -> None:
+    assert after("double_tap", FORWARD, BACK, BACK, BACK) == 0.0
+    assert after("double_tap", FORWARD, BACK, NEUTRAL) == 0.0
+    assert after("double_tap", FORWARD, BACK, NEUTRAL, BACK) < -0.5
+
+
+def test_it_brakes_at_the_first_reverse_after_it_was_switched_on() -> None:
+    assert after("double_tap", BACK) == 0.0
+    assert after("double_tap", BACK, NEUTRAL, BACK) < -0.5
+
+
+def test_once_it_was_forward_it_must_be_tapped_again() -> None:
+    assert after("double_tap", BACK, NEUTRAL, BACK, NEUTRAL, FORWARD, BACK) == 0.0
+
+
+def test_it_stays_in_reverse_through_neutral() -> None:
+    assert after("double_tap", BACK, NEUTRAL, BACK, NEUTRAL, BACK) < -0.5
+
+
+def test_one_without_reverse_brakes_for_ever() -> None:
+    assert after("none", FORWARD, BACK, NEUTRAL, BACK) == 0.0
+
+
+def test_a_brake_stops_sooner_than_neutral_does() -> None:
+    def seconds(pulse: float) -> float:
+        esc, speed, steps = Esc(EscSettings(reverse="double_tap")), 2.0, 0
+        while speed > 0.01:
+            speed, steps = esc.drive(speed, Servo(0), pulse, 3.0, 0.01), steps + 1
+        return steps * 0.01
+
+    assert seconds(BACK) < seconds(NEUTRAL)

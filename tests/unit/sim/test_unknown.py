@@ -43,6 +43,13 @@ class Eye:
         self.turn(axis, 0, LOOKS)
         return self.ticks[axis]
 
+    def tap(self) -> None:
+        """Brake and be neutral again: many an ESC wants it before it reverses."""
+        self.turn("throttle", -60, 0.5)
+        self.turn("throttle", 60, 0.5)
+        while abs(self.car.speed) > 0.005:
+            self.turn("throttle", 0, 0.1)
+
     def rest(self, axis: str) -> None:
         self.turn(axis, round(DONKEYCAR[axis].neutral_us / TICK) - self.ticks[axis], 1.0)
         self.turn(axis, 0, 1.0)
@@ -76,7 +83,7 @@ def test_all_of_it_is_found_within_two_ticks_and_each_end_within_twenty_seconds(
 
     finds: dict[str, Callable[[], int]] = {
         "forward starts": lambda: eye.until("throttle", 1, lambda: speed() > 0.01),
-        "reverse starts": lambda: eye.until("throttle", -1, lambda: speed() < -0.01),
+        "reverse starts": lambda: eye.tap() or eye.until("throttle", -1, lambda: speed() < -0.01),
         "straight": lambda: (
             eye.until("steering", left, lambda: angle() > 0)
             if angle() <= 0
@@ -85,7 +92,7 @@ def test_all_of_it_is_found_within_two_ticks_and_each_end_within_twenty_seconds(
         "full left": lambda: end("steering", left, angle, 1e-4),
         "full right": lambda: end("steering", -left, angle, 1e-4),
         "full forward": lambda: end("throttle", 1, speed, 2e-3),
-        "full reverse": lambda: end("throttle", -1, speed, 2e-3),
+        "full reverse": lambda: eye.tap() or end("throttle", -1, speed, 2e-3),
     }
     for step in STEPS:
         if measuring.is_over:
