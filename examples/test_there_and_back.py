@@ -6,7 +6,7 @@ import pytest
 from there_and_back import SPEED, there_and_back
 
 from zteleop import Odometry
-from zteleop.testing import FakeNode, Link
+from zteleop.testing import FakeNode, Link, SimulatedRobot
 
 
 def at(x: float) -> Odometry:
@@ -46,3 +46,13 @@ def test_a_bad_link_does_not_keep_it_from_turning_back(link: Link[Odometry]) -> 
     node = FakeNode(link=link)
     assert min(drive(node, *places)) == -SPEED
     assert node.stopped
+
+
+def test_a_simulated_robot_ends_near_where_it_began() -> None:
+    node = FakeNode()
+    robot = SimulatedRobot(node)
+    there_and_back(node)  # type: ignore[arg-type]
+    node.live(20.0)
+    assert node.stopped
+    assert robot.pose.x == pytest.approx(0.0, abs=0.2)
+    assert robot.distance == pytest.approx(2.0, abs=0.4)

@@ -47,8 +47,7 @@ class Eye:
         """Brake and be neutral again: many an ESC wants it before it reverses."""
         self.turn("throttle", -60, 0.5)
         self.turn("throttle", 60, 0.5)
-        while abs(self.car.speed) > 0.005:
-            self.turn("throttle", 0, 0.1)
+        self.turn("throttle", 0, 1.0)  # it may go on turning: what is taken for neutral need be none
 
     def rest(self, axis: str) -> None:
         self.turn(axis, round(DONKEYCAR[axis].neutral_us / TICK) - self.ticks[axis], 1.0)
