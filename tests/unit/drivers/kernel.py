@@ -37,6 +37,8 @@ class FakeKernel:
 
     def write(self, path: str, text: str) -> None:
         self._meet(path)
+        if self.locked and "/pwm" in path.removeprefix(self.chip):
+            raise refuse(errno.EACCES)
         place = path.removeprefix(f"{self.chip}/")
         if place == "export":
             self._export(int(text))

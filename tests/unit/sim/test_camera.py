@@ -79,6 +79,11 @@ def test_what_is_behind_or_far_away_is_not_drawn() -> None:
     assert len(seen(Scene(walls=[wall]), Pose2D(0.0, 0.0, pi))) == 1
 
 
+@pytest.mark.parametrize("side", [1, -1])
+def test_what_is_beside_the_picture_is_not_drawn(side: int) -> None:
+    assert seen(Scene(walls=[Wall(points=[(1.0, 2.0 * side), (1.0, 3.0 * side)])])) == []
+
+
 def test_a_line_that_begins_behind_the_camera_reaches_the_lower_edge() -> None:
     ((points, _),) = seen(Scene(tapes=[Tape(points=[(-5.0, 0.0), (5.0, 0.0)])]))
     _, _, top, bottom = spread(points)

@@ -86,6 +86,8 @@ def test_one_that_is_tapped_twice_brakes_first_however_long_and_then_reverses() 
 
 def test_it_brakes_at_the_first_reverse_after_it_was_switched_on() -> None:
     assert after("double_tap", BACK) == 0.0
+    assert after("double_tap", NEUTRAL, BACK) == 0.0
+    assert after("double_tap", FORWARD, NEUTRAL, BACK) == 0.0
     assert after("double_tap", BACK, NEUTRAL, BACK) < -0.5
 
 
