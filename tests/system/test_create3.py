@@ -11,6 +11,7 @@ from zteleop.bus.node import Node
 from zteleop.control.create3 import MAX_TURN, SAFE_SPEED, WHEEL_RADIUS
 from zteleop.messages import (
     BatteryState,
+    DockStatus,
     HazardDetectionVector,
     Imu,
     InterfaceButtons,
@@ -25,6 +26,7 @@ ROOM = """
 points = [[1.0, -3.0], [1.0, 3.0]]
 """
 BACKUP_LIMIT, BUMP = 0, 1
+CHARGING, FULL = 1, 4
 REST = (368, 368)
 """ticks, right and left: 1500 us"""
 
@@ -170,3 +172,22 @@ def test_it_feels_how_it_turns_and_knows_where_it_looks(rig: Rig, node: Node) ->
     hear(imus, lambda felt: abs(felt.angular_velocity.z) < 0.01, "it stands")
     turned = hear(imus, lambda felt: felt.orientation.z > 0, "another heading")
     assert 0.5 < 2 * atan2(turned.orientation.z, turned.orientation.w) < 1.5
+
+
+DOCK = """
+dock = { x = 0.0, y = 0.0 }
+"""
+
+
+def test_it_charges_in_its_dock_until_it_drives_out(rig: Rig, node: Node) -> None:
+    (rig.folder / "dock.toml").write_text(DOCK)
+    docks = node.subscription("dock_status", DockStatus)
+    batteries = node.subscription("battery_state", BatteryState)
+    sim = rig.join("sim", "create3", "--scene", "dock.toml")
+    sim.says("is heard")
+    hear(docks, lambda seen: seen.is_docked and seen.dock_visible, "it is docked")
+    hear(batteries, lambda seen: seen.power_supply_status in (CHARGING, FULL), "it charges, or is full")
+    ask(rig, "drive", "0.2m/s", "--for", "2s")
+    hear(docks, lambda seen: not seen.is_docked and not seen.dock_visible, "the dock is behind it")
+    hear(batteries, lambda seen: seen.current < 0, "it discharges")
+    sim.close()

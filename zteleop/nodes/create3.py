@@ -7,6 +7,7 @@ from zteleop.bus.node import Node
 from zteleop.messages import (
     AudioNoteVector,
     BatteryState,
+    DockStatus,
     HazardDetectionVector,
     Header,
     Imu,
@@ -21,6 +22,7 @@ from zteleop.messages import (
 )
 from zteleop.sim.battery import LITHIUM_ION, Battery, BatterySettings
 from zteleop.sim.create3.body import Create3
+from zteleop.sim.create3.docking import is_docked, status
 from zteleop.sim.create3.hazards import touch
 from zteleop.sim.create3.interface_buttons import NAMES, Buttons, Name
 from zteleop.sim.create3.lightring import Lightring
@@ -38,6 +40,8 @@ PACK = BatterySettings(
 )
 AT_REST, PER_SPEED = 3.0, 30.0
 """W that it draws, and W more for each m/s of its wheels"""
+CHARGER = 20.0
+"""W that its dock gives"""
 SENSED, TOLD, NOTED = 0.05, 1.0, 0.05
 """s between what its wheels and bumpers say; its battery, buttons and brakes; and two looks at its notes"""
 
@@ -72,6 +76,7 @@ class Equipment:
         hazards = node.publisher("hazard_detection", HazardDetectionVector)
         battery = node.publisher("battery_state", BatteryState)
         stops = node.publisher("stop_status", StopStatus)
+        docks = node.publisher("dock_status", DockStatus)
         imus = node.publisher("imu", Imu)
 
         @node.every(SENSED)
@@ -87,7 +92,12 @@ class Equipment:
         @node.every(TOLD)
         def tell() -> None:
             header, wheels = Header(clock.stamp(), "base_link"), self._robot.wheels
-            self._battery.draw(AT_REST + PER_SPEED * sum(map(abs, wheels.speeds)) / 2, TOLD)
+            dock = self._world.dock() if self._world else None
+            if is_docked(dock):
+                self._battery.charge(CHARGER, TOLD)
+            else:
+                self._battery.draw(AT_REST + PER_SPEED * sum(map(abs, wheels.speeds)) / 2, TOLD)
+            docks.publish(status(header, dock))
             battery.publish(self._battery.state(header))
             stops.publish(StopStatus(header, wheels.speeds == (0.0, 0.0)))
             self._presses.publish(self._buttons.message(header.stamp))
