@@ -40,7 +40,13 @@ class Car(Body):
         self._steer(pulse_us.get(self._steering.channel), dt)
         pulse = pulse_us.get(self._throttle.channel)
         self.speed = self._esc.drive(self.speed, self._throttle, pulse, self._mixer.max_speed, dt)
-        self.yaw_rate = self.speed * tan(self.steering_angle) / self._mixer.wheelbase
+        self.yaw_rate = self._held(self.speed * tan(self.steering_angle) / self._mixer.wheelbase)
+
+    def _held(self, yaw_rate: float) -> float:
+        """Return how fast it turns, rad/s: in a bend that its tyres cannot hold it slides outward."""
+        aside = abs(self.speed * yaw_rate)
+        grip = self._settings.grip
+        return yaw_rate if aside <= grip else yaw_rate * grip / aside
 
     def _steer(self, pulse_us: float | None, dt: float) -> None:
         wanted = fraction(self._steering, pulse_us)

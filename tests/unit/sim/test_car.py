@@ -104,3 +104,15 @@ def test_the_length_of_a_step_hardly_matters() -> None:
     drive(coarse, command, 3.0, dt=0.1)
     drive(fine, command, 3.0, dt=0.005)
     assert hypot(coarse.x - fine.x, coarse.y - fine.y) < 0.01
+
+
+def test_a_bend_that_its_tyres_cannot_hold_is_wider() -> None:
+    """At 0.5 m/s it turns as its wheels point; at 3 m/s only as its grip allows."""
+    car, lock = Car(MIXER, SERVOS), {STEERING: 2000.0}
+    for _ in range(300):
+        car.step(lock | {THROTTLE: SERVOS["throttle"].pulse_us(0.5 / MIXER.max_speed)}, 0.01)
+    radius = MIXER.wheelbase / tan(MIXER.max_steering_angle)
+    assert car.speed / car.yaw_rate == pytest.approx(radius, rel=0.01)
+    for _ in range(300):
+        car.step(lock | {THROTTLE: 2000.0}, 0.01)
+    assert car.speed * car.yaw_rate == pytest.approx(CarSettings().grip, rel=0.01)
