@@ -125,13 +125,14 @@ def test_what_it_runs_into_is_felt_by_the_bumper_that_is_there(rig: Rig, node: N
     hear(stops, lambda seen: seen.is_stopped, "it stands")
 
 
-@pytest.mark.usefixtures("sim")
-def test_it_does_not_reverse_onto_floor_that_it_never_saw(rig: Rig, node: Node) -> None:
+def test_it_does_not_reverse_onto_floor_that_it_never_saw(rig: Rig, node: Node, sim: Process) -> None:
     hazards = node.subscription("hazard_detection", HazardDetectionVector)
-    drive = rig.join("drive", "-0.2m/s", "--for", "1s")
+    drive = rig.join("drive", "-0.2m/s", "--for", "2s")
     felt = hear(hazards, lambda seen: seen.detections, "the limit")
     assert felt.detections[0].type == BACKUP_LIMIT
-    assert drive.ends() == 0
+    sim.says("it reverses no farther: it knows only the 15 cm of floor that it came from")
+    assert drive.ends() == 1
+    drive.says("stood for the last")
     assert drive.lines[-1].startswith("went 0.00 m")
 
 

@@ -48,9 +48,14 @@ def test_it_stands_before_a_wall_and_drives_away_from_it(rig: Rig, sim: Process)
     until(lambda: WALL.search(keys.screen), "the wall in the picture")
     far = sees(rig)
     assert 1.0 < far < 1.5
-    ask(rig, "drive", "0.5m/s", "--for", "4s")
+    driven = rig.result("drive", *rig.bus_options(), "0.5m/s", "--for", "5s")
+    assert (driven.returncode, driven.stdout.count("went 1.")) == (1, 1), driven.stdout
+    assert "it; does something stand in its way?" in " ".join(driven.stderr.split())
     sim.says("sim: warning: it stands at the brown wall, and can only drive away from there")
     keys.shows("it stands at the brown wall")
+    told = sim.text.count("it stands at the brown wall")
+    assert rig.result("drive", *rig.bus_options(), "0.5m/s", "--for", "2s").returncode == 1
+    until(lambda: sim.text.count("it stands at the brown wall") > told, "the wall, once more")
     assert sees(rig) < 0.1
     assert "went 0." in ask(rig, "drive", "-0.5m/s", "--for", "1s")
     assert sees(rig) > 0.2

@@ -1,5 +1,6 @@
 """A robot whose servos may turn as far as any, and somebody who watches the wheels and answers."""
 
+import sys
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
@@ -25,6 +26,7 @@ from zteleop.terminal.typed import Typed, open_terminal
 
 START = 10.0
 """s in which the robot is ready, its ESC armed"""
+KNOWN = "the motor's neutral is known: the robot starts anew with it, two seconds or so"
 SLOW = 0.1
 """m/s at full throttle, as this robot is told: no limit of speed then keeps a motor from its end"""
 
@@ -42,6 +44,9 @@ def find_out(file: SettingsFile, settings: Config, robot: str) -> dict[str, Serv
             drive_at_terminal(node, settings, tuner, "keyboard", known, watch=seen_by(tuner), task=tuner.task)
         if tuner.gave_up:
             return None
+        if not measuring.number < len(STEPS):
+            break
+        print(KNOWN, file=sys.stderr, flush=True)
         measuring.go_on()
     try:
         return measuring.servos()

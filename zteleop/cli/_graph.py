@@ -12,7 +12,7 @@ from zteleop.bus.presence import Endpoint, Member
 from zteleop.bus.session import Session, open_session
 from zteleop.bus.topics import topic_of
 from zteleop.cli import _company, _options
-from zteleop.errors import BusError, nearest
+from zteleop.errors import BusError, meant, nearest
 
 
 class Graph(NamedTuple):
@@ -58,8 +58,9 @@ class Graph(NamedTuple):
                 f"several serve '{text}': {', '.join(f'/{name}' for name in sorted(own))}; say which"
             )
         if not own:
-            shown = {name for name in known if name.path.rpartition("/")[2] in wanted} | self._named
-            near = nearest(f"/{wanted}", (f"/{name}" for name in shown)) if shown else "there is none here"
+            near = meant(f"/{wanted}", (f"/{name}" for name in known))
+            named = nearest(f"/{wanted}", (f"/{name}" for name in self._named)) if self._named else ""
+            near = near or named or "there is none here"
             raise BusError(f"Unknown service '{text}'; {near}")
         (name,) = own
         return name, [one for one in self.all_services if (one.robot, one.topic) == name]

@@ -27,6 +27,8 @@ SEEN_WITHIN = 2.0
 """s to wait for the first odometry"""
 JUMP, FASTEST = 0.3, 5.0
 """m, and m more for each s since it was last seen, that no robot moves between two looks"""
+STOOD = 1.0
+"""s at the end of a course in which a robot that is told to move has not"""
 STANDS = 0.5
 """s after the last command in which it comes to rest, and is still looked at"""
 
@@ -71,17 +73,19 @@ class Motion:
 
         Raises BusError where it was not obeyed to the end.
         """
-        over = False
+        over, stood = False, 0.0
         self._began = clock.now()
 
         @self._node.every(PERIOD)
         def step() -> None:
+            nonlocal stood
             if over:
                 return
             now = clock.now()
             self._why = self._hindrance(now, by_sight)
             twist = None if self._why else course.twist(self._pose or Pose2D(), now)
             if twist is None:
+                stood = min(self._trail.stood(now), now - self._began)
                 self._node.stop()
             else:
                 self._outcome.note(twist)
@@ -94,13 +98,18 @@ class Motion:
             over = True
             self._publisher.let_go()
             self._node.spin(STANDS)
-            if (
-                self._outcome.obeyed or self._trail.way > 0
-            ):  # Ctrl-C may have come before the word that it obeys
+            refused = self._publisher.refused or self._outcome.is_taken
+            # Ctrl-C may have come before the word that it obeys; what another drove is not told as this one's
+            if self._outcome.obeyed or (self._trail.way > 0 and not refused):
                 print(printable(self._told(tell)), flush=True)
         self._outcome.check()
         if self._why:
             raise BusError(f"not driven to its end: {self._why}")
+        if stood > STOOD and self._progress.is_asked:
+            robot = self._node.robot
+            raise BusError(
+                f"{robot} stood for the last {stood:.1f} s of it; does something stand in its way?"
+            )
 
     def _told(self, tell: Callable[[Trail], str]) -> str:
         if self._trail:
@@ -124,7 +133,7 @@ class Motion:
         if now - self._seen > SILENT:
             return f"nobody says any more where {robot} is" if by_sight else ""
         if self._trail and self._progress.is_stuck(self._trail, now):
-            return f"{robot} hardly moves; does something stand before it?"
+            return f"{robot} hardly moves; does something stand in its way?"
         return ""
 
     def _see(self, received: Received[Odometry]) -> None:

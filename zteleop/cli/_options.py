@@ -83,7 +83,12 @@ def salvaged(options: argparse.Namespace) -> Config:
     """Return the settings of the file meant, as far as they can be read; a stop must not fail for a typo."""
     settings, wrong = salvage(options.config)
     if wrong:
-        words = f"zteleop: warning: {wrong}; goes on with the rest of that file, and what is built in"
+        rest = (
+            "what is built in"
+            if wrong.startswith("cannot read")
+            else "the rest of that file, and what is built in"
+        )
+        words = f"zteleop: warning: {wrong}; goes on with {rest}"
         print(printable(words), file=sys.stderr)
     return settings
 
@@ -106,7 +111,7 @@ def find_robot(session: Session, settings: Config) -> str:
 
     Raises ConfigError when there are several.
     """
-    return settings.robot or heard_robot(session) or spoken_of(session) or own_robot()
+    return settings.robot or heard_robot(session) or spoken_of(session) or own_robot(session)
 
 
 def heard_robot(session: Session) -> str | None:
@@ -123,13 +128,12 @@ def spoken_of(session: Session) -> str | None:
     return found.pop() if len(found) == 1 else None
 
 
-def own_robot() -> str:
+def own_robot(session: Session) -> str:
     """Return this machine's own robot's name, and say so: nobody has named it."""
-    robot = config.own_name()
-    words = (
-        f"zteleop: no robot is named, and none is heard; {robot} is meant, as this machine's own is called"
-    )
-    print(words, file=sys.stderr, flush=True)
+    robot, others = config.own_name(), sorted({node.robot for node in presence.nodes(session)} - {""})
+    heard = f"no actuator is heard (there are nodes of {', '.join(others)})" if others else "none is heard"
+    words = f"zteleop: no robot is named, and {heard}; {robot} is meant, as this machine's own is called"
+    print(printable(words), file=sys.stderr, flush=True)
     return robot
 
 

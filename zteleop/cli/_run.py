@@ -15,7 +15,7 @@ OF_ROS = {
     "--qos": "of QoS there is nothing to choose here",
     "--no-daemon": "there is no daemon; whoever is on the bus is asked",
     "--spin-time": "there is no wait to choose; whoever is on the bus is asked",
-    "--include-hidden": "nothing is hidden; -v shows who says and hears it",
+    "--include-hidden": "all topics and nodes are shown as it is",
     "--wait-matching": "it waits for whoever hears by itself, for a moment",
     "--keep-alive": "what is said once is heard by whoever is there; -r says it again and again",
     "--print": "each message is printed",

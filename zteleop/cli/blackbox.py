@@ -1,5 +1,6 @@
 import argparse
 import sys
+import tempfile
 from collections.abc import Iterator
 from contextlib import suppress
 from datetime import UTC, datetime, timedelta
@@ -21,6 +22,9 @@ EXAMPLES = (
     "zteleop blackbox",
     "zteleop blackbox archangel --list",
 )
+
+DEMO = "zteleop-demo-"
+"""how the folder of a demo that runs begins, in which its robot keeps what others keep for longer"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -68,7 +72,8 @@ def _looks_like_a_path(text: str) -> bool:
 def _files(robot: str | None) -> list[Path]:
     """Return the files of a robot, or of all robots of this machine, the oldest first."""
     home = config.state_folder(robot_name(robot) if robot else "any").parent
-    folders = home.glob(f"{robot or '*'}/blackbox")
+    demos = Path(tempfile.gettempdir()).glob(f"{DEMO}*/{home.parent.name}/{home.name}")
+    folders = [folder for place in (home, *demos) for folder in place.glob(f"{robot or '*'}/blackbox")]
     return blackbox_file.in_order(path for folder in folders for path in blackbox_file.files(folder))
 
 

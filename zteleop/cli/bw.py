@@ -46,9 +46,11 @@ class Sizes:
 
     def __init__(self, most: int) -> None:
         self._newest: deque[tuple[float, int]] = deque(maxlen=most)
+        self._news = False
 
     def hear(self, arrival: Arrival) -> None:
         self._newest.append((arrival.at, len(arrival.sample.payload)))
+        self._news = True
 
     def figures(self, now: float) -> tuple[str, ...]:
         """Return what the newest messages come to, as of now: a topic that falls silent counts ever less.
@@ -67,9 +69,16 @@ class Sizes:
         )
         return (f"{rate / scale:.{digits}f} {unit}/s", *said, str(len(sizes)))
 
+    def take_news(self) -> bool:
+        """Say whether anything came since this was last asked."""
+        news, self._news = self._news, False
+        return news
+
     def lines(self, now: float) -> Iterable[str]:
-        """Yield the figures in the words of ROS."""
-        if found := self.figures(now):
+        """Yield the figures in the words of ROS; where nothing came since, that."""
+        if not self.take_news() and self._newest:
+            yield "no new messages"
+        elif found := self.figures(now):
             rate, mean, least, largest, count = found
             yield f"{rate} from {count} messages"
             yield f"\tMessage size mean: {mean} min: {least} max: {largest}"
@@ -79,5 +88,13 @@ def table(sizes: Mapping[str, Sizes], now: float) -> Iterable[str]:
     """Yield a table of all topics, once one of them was heard."""
     found = {topic: one.figures(now) for topic, one in sizes.items()}
     if any(found.values()):
-        none = ("not heard", *[""] * (len(HEAD) - 2))
-        yield from _window.table([HEAD, *((topic, *(row or none)) for topic, row in found.items())])
+        rows = [(topic, *_row(row, sizes[topic].take_news())) for topic, row in found.items()]
+        yield from _window.table([HEAD, *rows])
+
+
+def _row(figures: tuple[str, ...], news: bool) -> tuple[str, ...]:
+    """Return the cells of a topic: of one from which nothing came since, no rate."""
+    empty = [""] * (len(HEAD) - 2)
+    if not figures:
+        return ("not heard", *empty)
+    return figures if news else ("silent", *empty)

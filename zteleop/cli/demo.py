@@ -6,6 +6,7 @@ import sys
 import tempfile
 from collections.abc import Sequence
 from contextlib import ExitStack
+from functools import partial
 from math import hypot
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from zteleop.bus.node import Node
 from zteleop.bus.settings import SAME_MACHINE_DOOR, BusSettings
 from zteleop.cli import _scenes
 from zteleop.cli._driving import find_vehicle
+from zteleop.cli.blackbox import DEMO
 from zteleop.cli.keyboard import drive_with_keys
 from zteleop.config import Config
 from zteleop.control.vehicles import VEHICLES
@@ -38,6 +40,8 @@ OTHER: dict[Drive, tuple[Drive, str]] = {
 SCENE, OPEN = "eight", "floor"
 """where it drives at a screen, and where nobody sees what stands in its way"""
 START = 10.0
+PARTS = ("robot", "simulator")
+"""its processes beside this one"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -58,7 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
     robot = f"demo-{secrets.token_hex(2)}"
     endpoint = f"tcp/127.0.0.1:{_free_port()}"
     with ExitStack() as stack:
-        folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="zteleop-demo-")))
+        folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix=DEMO)))
         log = stack.enter_context((folder / "log").open("w"))
         (folder / "config.toml").write_text(f'[drivers.simulated]\npath = "{folder / "chip"}"\n')
         where = ["--config", str(folder / "config.toml"), "--robot", robot, "--no-multicast-scouting"]
@@ -82,12 +86,21 @@ def run(arguments: argparse.Namespace) -> int:
         await_robot(node, children, Path(log.name))
         if screen:
             trip = Trip()
-            drive = drive_with_keys(node, Config(bus=bus), arguments.drive, marks(plan(scene)), trip)
+            lost = partial(ended, children)
+            drive = drive_with_keys(
+                node, Config(bus=bus), arguments.drive, marks(plan(scene)), trip, task=lost
+            )
             ending = farewell(trip, drive)
         else:
             return drive_figure(node)
     print(ending)  # all of it is over
     return 0
+
+
+def ended(children: Sequence[Process]) -> list[tuple[str, str]]:
+    """Return, where a part of the demo is gone, which, and what to do."""
+    gone = [name for name, child in zip(PARTS, children, strict=True) if child.poll() is not None]
+    return [("demo", f"its {' and its '.join(gone)} ended: q, and start another")] if gone else []
 
 
 def drive_figure(node: Node) -> int:

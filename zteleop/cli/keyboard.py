@@ -77,8 +77,11 @@ def drive_with_keys(
     floor: Sequence[Mark] = (),
     watch: Callable[[View], None] = lambda view: None,
     typed: Keys | None = None,
+    task: Callable[[], Sequence[tuple[str, str]]] = tuple,
 ) -> Drive:
     """Show the keyboard screen, with what lies on the floor, and drive until the operator has enough.
+
+    What `task` says, if anything, stands above all else.
 
     Return how: unless somebody said so, while keys are held where their release is told, else in steps
     what takes them.
@@ -103,5 +106,5 @@ def drive_with_keys(
         steps = vehicle.takes_ticks and not keyboard.tells_releases and settings.keymap not in HELD
         keyboard.drive = drive or ("step" if steps else "hold")
 
-    drive_at_terminal(node, settings, keyboard, "keyboard", known, choose, watch)
+    drive_at_terminal(node, settings, keyboard, "keyboard", known, choose, watch, task)
     return keyboard.drive

@@ -36,6 +36,8 @@ EXAMPLES = (
 SETTLE = 0.1
 """s in which others who hear it are found"""
 OBEYED_FOR = SOURCES["program"].silence
+STAYS = OBEYED_FOR - 0.04
+"""s after the last command: who lets go then has ended, and whose silence the robot notices is lost"""
 """s after a last command in which its robot still obeys, unless whoever said it leaves"""
 
 
@@ -102,7 +104,7 @@ def run(arguments: argparse.Namespace) -> None:
             words = f"a robot obeys each for {OBEYED_FOR:g} s, and stops in between; --rate 10 drives on"
             print(f"zteleop pub: {words}", file=sys.stderr)
         resume = Resume(publisher.sender) if arguments.resume and publisher.sender else None
-        stay = OBEYED_FOR if command else 0.0
+        stay = STAYS if command else 0.0
         _say(node, publisher, draft.make, arguments.rate, times, resume, stay, outcome, arguments.lasts)
         if times is not None and wanted > 0 and not (heard or _hears(node, publisher, name)):
             raise BusError(f"said to nobody: {_who_hears(node, name)}")
@@ -191,7 +193,7 @@ def _say_what_comes(node: Node, publisher: Publisher[M], kind: type[M], outcome:
         node.spin()
         node.membership.loop.unwatch(file)
         if outcome and said:
-            node.spin(OBEYED_FOR)
+            node.spin(STAYS)
             outcome.check()
     finally:
         publisher.let_go()

@@ -73,7 +73,7 @@ def run(arguments: argparse.Namespace) -> None:
         _options.end_with_parent(arguments, node)
         node.log.info(f"moves {robot}, a simulated {kind}, by the pulses in {driver['path']}")
         unlimited = msgspec.structs.replace(settings.drive, limits=VEHICLES[kind].limits)
-        node.every(TELL_AFTER)(Attendant(node, kind, to_vehicle(unlimited, 1.0)).look)
+        node.every(TELL_AFTER)(Attendant(node, kind, to_vehicle(unlimited, 1.0), arguments.unknown).look)
         simulated = Simulated(
             kind, scene, LEVELS[arguments.noise], arguments.seed, arguments.unknown, arguments.camera
         )
@@ -107,10 +107,11 @@ def _robot_of(settings: Config, session: Session) -> str:
 class Attendant:
     """Says whether anybody moves the car: its actuator comes and goes as it likes."""
 
-    def __init__(self, node: Node, kind: str, own: Vehicle) -> None:
+    def __init__(self, node: Node, kind: str, own: Vehicle, unknown: bool = False) -> None:
         self._node = node
         self._kind = kind
         self._own = own
+        self._unknown = unknown
         self._differs = ""
         self._heard = node.membership.heard()
         self._there: bool | None = None
@@ -131,7 +132,8 @@ class Attendant:
             self._node.log.warn(f"the actuator of {robot} is not heard any more; its chip stays as it is")
         else:
             here = presence.here(self._node.membership.session, robot)
-            start = f"start zteleop actuator --robot {robot}"
+            verb = "calibrate" if self._unknown else "actuator"
+            start = f"start zteleop {verb} --robot {robot}"
             self._node.log.warn(f"waits for pulses: no actuator of {robot} is heard ({here}); {start}")
 
     def _compare(self, vehicle: Vehicle | None) -> None:

@@ -196,7 +196,9 @@ def _robots(node: Node, settings: Config, every: bool) -> list[str]:
     if len(found) > 1 and not every:
         return _ask(found)
     named = [settings.robot] if settings.robot else []
-    return sorted({*found, *named}) or [_options.spoken_of(node.membership.session) or _options.own_robot()]
+    return sorted({*found, *named}) or [
+        _options.spoken_of(node.membership.session) or _options.own_robot(node.membership.session)
+    ]
 
 
 def _ask(found: list[str]) -> list[str]:

@@ -143,5 +143,4 @@ class Tuner(Keyboard):
         return again if turned else ""
 
     def _ticks(self, pulse_us: float) -> int:
-        pulse = next(iter(self._out.values()), None)
-        return round(pulse_us * pulse.duty_ticks / pulse.pulse_us) if pulse else round(pulse_us)
+        return round(pulse_us / self._vehicle.tick_us) if self._vehicle else round(pulse_us)

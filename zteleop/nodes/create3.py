@@ -40,6 +40,7 @@ PACK = BatterySettings(
 )
 AT_REST, PER_SPEED = 3.0, 30.0
 """W that it draws, and W more for each m/s of its wheels"""
+NO_FARTHER = "it reverses no farther: it knows only the 15 cm of floor that it came from; drive forward first"
 CHARGER = 20.0
 """W that its dock gives"""
 SENSED, TOLD, NOTED = 0.05, 1.0, 0.05
@@ -58,6 +59,7 @@ class Equipment:
         self._battery = Battery(PACK)
         self._lights = Lightring()
         self._notes = Notes()
+        self._limited = False
         self._presses = node.publisher("interface_buttons", InterfaceButtons)
         self._listen()
         self._speak()
@@ -87,6 +89,7 @@ class Equipment:
             speeds.publish(WheelVels(header, *robot.wheels.turning))
             felt = [*robot.hazards, *(touch(self._world).hazards if self._world else ())]
             hazards.publish(HazardDetectionVector(header, [hazard.message(now) for hazard in felt]))
+            self._tell_limit(bool(robot.hazards))
             imus.publish(self._unit.measure(Header(now, "imu"), robot, SENSED))
 
         @node.every(TOLD)
@@ -108,6 +111,12 @@ class Equipment:
             while self._notes.started:
                 note = self._notes.started.popleft()
                 node.log.tell(Log.INFO, f"plays {note.frequency} Hz", "notes")
+
+    def _tell_limit(self, is_reached: bool) -> None:
+        """Say, once each time, why it does not reverse."""
+        if is_reached and not self._limited:
+            self._node.log.warn(NO_FARTHER)
+        self._limited = is_reached
 
     def _press(self, name: Name, request: SetBoolRequest) -> SetBoolResponse:
         """Press a button, or let it go, for whoever has no finger on the robot."""

@@ -159,7 +159,8 @@ def furnish(node: Node, vehicle: Body, simulated: Simulated) -> World:
         ahead = sensor.measure(world, world.nose)
         header = Header(clock.stamp(), "range")
         ranges.publish(sensor.state(header, ahead, chance, simulated.noise.range))
-        touched = world.contact.name if world.contact else ""
+        touched = world.contact.name if world.contact and world.pushed else ""
+        world.pushed = False
         if touched and touched != told:
             node.log.warn(f"it stands at {scene.called(touched)}, and can only drive away from there")
         told = touched

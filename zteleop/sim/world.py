@@ -40,6 +40,8 @@ class World:
         """Where the body is, in the frame of the scene."""
         self.contact: Contact | None = None
         """What it runs into, until it moves again."""
+        self.pushed = False
+        """It wanted to go on into that since somebody last looked, who says False then."""
         found = self._hit(self.pose, None)
         if name := self._obstacles.filled(self.pose.x, self.pose.y) or (found and found.name):
             raise ConfigError(f"a robot does not fit where the scene starts: {name} is there")
@@ -64,6 +66,7 @@ class World:
             return True
         here, there = (self._start.ahead(pose.x, pose.y, pose.heading) for pose in (before, after))
         self.contact = self._hit(there, here)
+        self.pushed = self.pushed or self.contact is not None
         self.pose = here if self.contact else there
         return not self.contact
 

@@ -166,3 +166,15 @@ def test_a_robot_whose_name_was_mistyped_is_asked_about(
 ) -> None:
     keep(home, "anna")
     assert fails(capsys, "ana").endswith("; did you mean anna?")
+
+
+def test_a_demo_that_runs_has_its_files_in_a_folder_of_its_own(
+    home: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("tempfile.gettempdir", lambda: str(home))
+    keep(home / "zteleop-demo-x1", "demo-1711")
+    assert main(["blackbox", "demo-1711"]) == 0
+    assert WHY in capsys.readouterr().out
+    assert main(["blackbox"]) == 0
+    assert main(["blackbox", "--list"]) == 0
+    assert "demo-1711" in capsys.readouterr().out

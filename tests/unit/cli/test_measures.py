@@ -105,13 +105,23 @@ def test_a_bandwidth_has_the_unit_that_suits_it(size: int, count: int, lines: li
     assert list(sizes.lines(1.0)) == lines
 
 
-def test_a_topic_that_fell_silent_takes_ever_less() -> None:
+def test_a_topic_that_fell_silent_has_no_rate() -> None:
     sizes = bw.Sizes(2)
     for at in (0.0, 1.0, 2.0):
         sizes.hear(Arrival(at, put(b"x" * 10)))
     assert next(iter(sizes.lines(3.0))) == "10 B/s from 2 messages"
-    assert next(iter(sizes.lines(21.0))) == "1 B/s from 2 messages"
+    assert list(sizes.lines(21.0)) == ["no new messages"]
     assert list(bw.Sizes(2).lines(1.0)) == []
+    silent, speaks = bw.Sizes(9), bw.Sizes(9)
+    for at in (0.0, 1.0):
+        silent.hear(Arrival(at, put(b"x")))
+        speaks.hear(Arrival(at, put(b"x")))
+    both = {"/a/silent": silent, "/a/speaks": speaks}
+    assert list(bw.table(both, 2.0))[2].split()[:3] == ["/a/silent", "1", "B/s"]
+    speaks.hear(Arrival(2.0, put(b"x")))
+    assert list(bw.table(both, 3.0))[2].split() == ["/a/silent", "silent"]
+    speaks.hear(Arrival(3.0, put(b"x")))
+    assert list(bw.table(both, 4.0))[3].split()[:3] == ["/a/speaks", "1", "B/s"]
 
 
 def test_a_delay_is_from_the_stamp_to_the_arrival() -> None:

@@ -9,9 +9,11 @@ from zteleop.bus.subscription import Received
 from zteleop.cli import circle, drive, square
 from zteleop.cli._motion import Motion, went
 from zteleop.cli._options import measure
+from zteleop.control.motion.course import Steady
 from zteleop.control.motion.pose import Pose2D
+from zteleop.control.motion.progress import Progress
 from zteleop.control.motion.trail import Trail
-from zteleop.errors import ConfigError
+from zteleop.errors import BusError, ConfigError
 from zteleop.messages import Odometry, Twist, Vehicle
 from zteleop.testing import Clock, FakeNode
 
@@ -101,7 +103,7 @@ def test_what_came_of_it_is_told_in_its_own_measures() -> None:
         ({}, True, ""),
         ({"seen": -2.0}, True, "nobody says any more where bench is"),
         ({"seen": -2.0, "stuck": True}, False, ""),
-        ({"stuck": True}, True, "bench hardly moves; does something stand before it?"),
+        ({"stuck": True}, True, "bench hardly moves; does something stand in its way?"),
         ({"heard": -2.0}, True, "bench says nothing any more"),
         ({"lost": "link lost: a moment"}, True, ""),
         ({"lost": "link lost: for long", "since": -2.0}, True, "link lost: for long"),
@@ -146,3 +148,40 @@ def test_odometry_that_begins_anew_is_noticed_and_is_no_way(
     motion._see(Received(odom, "robot/bench/odom", None, clock.time))
     assert motion._anew is anew
     assert motion._pose == Pose2D(5.0 if anew else 5.0 + jump, 0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("obeyed", "refused", "told"), [(True, "", True), (False, "", True), (False, "keyboard drives", False)]
+)
+def test_what_another_drove_is_not_told_as_its_own(
+    clock: Clock, capsys: pytest.CaptureFixture[str], obeyed: bool, refused: str, told: bool
+) -> None:
+    motion, _ = steady(clock, arc(1.0, 1.0), obeyed=obeyed, refused=refused)
+    motion.drive(Steady(Twist.planar(0.5), 0.0), went)
+    assert ("went " in capsys.readouterr().out) is told
+
+
+def test_a_robot_that_stood_at_the_end_is_no_success(clock: Clock) -> None:
+    motion, node = steady(clock, trail(Pose2D(), Pose2D(0.2), Pose2D(0.2)))
+    with pytest.raises(
+        BusError, match=r"bench stood for the last 2\.\d s of it; does something stand"
+    ):
+        motion.drive(Steady(Twist.planar(0.5), 2.5), went)
+    motion, node = steady(clock, trail(Pose2D(), Pose2D(0.2)))
+    node.every(0.1)(lambda: motion._trail.add(Pose2D(0.2 + 0.5 * node.loop.clock.time), node.loop.clock.time))
+    motion.drive(Steady(Twist.planar(0.5), 2.5), went)
+
+
+def steady(clock: Clock, seen: Trail, *, obeyed: bool = True, refused: str = "") -> tuple[Motion, FakeNode]:
+    """Return a motion that has seen this, by a robot that obeys, or refuses."""
+    motion, node = Motion.__new__(Motion), FakeNode(robot="bench", clock=clock)
+    motion._node = node  # type: ignore[assignment]
+    node.spin = lambda seconds=10.0: node.live(seconds)  # type: ignore[method-assign,assignment]
+    motion._publisher = node.publisher("cmd_vel", Twist)  # type: ignore[assignment]
+    motion._publisher.refused = refused  # type: ignore[misc]
+    motion._outcome = SimpleNamespace(  # type: ignore[assignment]
+        obeyed=obeyed, is_taken=False, lost="", heard_at=float("inf"), note=id, check=lambda: None
+    )
+    motion._progress, motion._trail, motion._pose, motion._why = Progress(), seen, Pose2D(), ""
+    motion._hindrance = lambda now, by_sight: ""  # type: ignore[method-assign]
+    return motion, node

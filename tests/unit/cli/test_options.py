@@ -172,4 +172,4 @@ def test_where_no_actuator_is_on_the_only_robot_that_nodes_are_here_for_is_meant
     assert capsys.readouterr().err == ""
     both = Session([presence.node_key(robot, "sim") for robot in ("abe", "zoe")])
     assert _options.find_robot(both, Config()).startswith("car-")  # type: ignore[arg-type]
-    assert "none is heard" in capsys.readouterr().err
+    assert "no actuator is heard (there are nodes of abe, zoe)" in capsys.readouterr().err

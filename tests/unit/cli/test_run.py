@@ -125,7 +125,7 @@ def test_a_wrong_argument_is_a_usage_error(capsys: pytest.CaptureFixture[str]) -
         (
             "list",
             "--include-hidden-topics",
-            "no option --include-hidden-topics: nothing is hidden; -v shows who says and hears it",
+            "no option --include-hidden-topics: all topics and nodes are shown as it is",
         ),
         ("pub", "cmd_vel Twist -p 3", "no option -p; zteleop pub --help shows those there are"),
         ("list", "--colour", "no option --colour; zteleop list --help shows those there are"),

@@ -143,3 +143,16 @@ def test_a_tank_that_pushes_a_wall_stands_with_both_wheels() -> None:
     tank.step({0: servos["left"].pulse_us(1.0), 1: servos["right"].pulse_us(1.0)}, 1.0)
     assert isinstance(tank, Tank)
     assert tank.wheel_speeds == (0.0, 0.0)
+
+
+def test_whoever_pushes_on_is_told_again_once_somebody_has_looked() -> None:
+    room = world(walls=[WALL])
+    room.admits(HERE, near := Pose2D(0.79))
+    assert not room.pushed
+    room.admits(near, Pose2D(0.81))
+    assert room.pushed
+    room.pushed = False
+    room.admits(near, near)
+    assert not room.pushed, "it stands, and wants nothing"
+    room.admits(near, Pose2D(0.81))
+    assert room.pushed

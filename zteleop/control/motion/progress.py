@@ -15,6 +15,11 @@ class Progress:
         self._turn = 0.0
         self._from: tuple[float, float, float] | None = None
 
+    @property
+    def is_asked(self) -> bool:
+        """It was told to move, lately."""
+        return self._way > 0 or self._turn > 0
+
     def ask(self, twist: Twist, seconds: float) -> None:
         """Note what it is told to do for some time."""
         self._way += abs(twist.linear.x) * seconds

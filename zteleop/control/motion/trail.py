@@ -53,6 +53,12 @@ class Trail:
         """s from the first move to the last."""
         return self._moved[2] - self._moved[3] if self._moved else 0.0
 
+    def stood(self, now: float) -> float:
+        """Return for how many s it has not moved; 0 where nobody saw it."""
+        if not self._poses:
+            return 0.0
+        return now - (self._moved[2] if self._moved else self._poses[0][0])
+
     @property
     def start(self) -> Pose2D:
         return self._poses[0][1]
