@@ -17,15 +17,21 @@ from zteleop.cli._settings_file import PULSES, SettingsFile, of_servos, tick_of
 from zteleop.config import Config
 from zteleop.control.measuring import STEPS, Measuring
 from zteleop.control.servo import Servo
+from zteleop.drivers import open_driver
 from zteleop.errors import BusError, ConfigError
+from zteleop.inputs.levers import Steps
 from zteleop.inputs.tuner import Tuner
 from zteleop.machine.leash import Process, leashed
 from zteleop.screen.dashboard import Dashboard
 from zteleop.screen.view import View
 from zteleop.terminal.typed import Typed, open_terminal
 
+TICK = Steps(1, 1)
+"""what a press turns"""
 START = 10.0
 """s in which the robot is ready, its ESC armed"""
+READY = " obeys"
+"""what an actuator says that has the robot to itself"""
 KNOWN = "the motor's neutral is known: the robot starts anew with it, two seconds or so"
 SLOW = 0.1
 """m/s at full throttle, as this robot is told: no limit of speed then keeps a motor from its end"""
@@ -36,11 +42,13 @@ def find_out(file: SettingsFile, settings: Config, robot: str) -> dict[str, Serv
 
     Raises BusError when the robot does not start, ConfigError when what was found makes no servo.
     """
+    chip = settings.driver_settings(settings.driver, robot)
+    open_driver(settings.driver, chip).close()  # which fails where somebody else drives it
     measuring = Measuring(settings.drive.servos, tick_of(settings))
     while measuring.number < len(STEPS):
         with running(file, settings, robot, measuring) as node:
             tuner = Tuner(Typed(open_terminal()), measuring)
-            known = Dashboard(robot, "step", settings.speeds, bound=tuner.bound)
+            known = Dashboard(robot, "step", settings.speeds, bound=tuner.bound, steps=TICK)
             drive_at_terminal(node, settings, tuner, "keyboard", known, watch=seen_by(tuner), task=tuner.task)
         if tuner.gave_up:
             return None
@@ -85,8 +93,6 @@ def wide(file: SettingsFile, settings: Config, robot: str, measuring: Measuring)
         **of_servos(measuring.wide(), (*PULSES, "dead_zone_us")),
         ("drive", "mixer", "kind"): settings.drive.mixer.kind,
         ("drive", "mixer", "max_speed"): SLOW,
-        ("blackbox",): False,
-        ("journal",): "off",
         **{("bus", name): getattr(bus, name) for name in ("mode", "connect", "listen", "multicast")},
     }
     if settings.driver == "simulated":
@@ -98,7 +104,7 @@ def await_ready(node: Node, process: Process, log: Path) -> None:
     """Wait until the robot takes commands; raises BusError with its last words when it does not."""
     give_up = clock.now() + START
     while clock.now() < give_up and process.poll() is None:
-        if node.membership.heard().ready:
+        if READY in log.read_text() and node.membership.heard().ready:
             return
         node.spin(0.01)
     words = log.read_text().strip().splitlines()

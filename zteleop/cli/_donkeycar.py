@@ -51,15 +51,16 @@ def in_counts(servo: Servo) -> Output:
 
 def imported(settings: Config, path: Path) -> Iterator[tuple[tuple[str, ...], Any]]:
     """Yield what a Donkeycar file changes in settings."""
-    car = donkeycar.read((str(file), text_of(file)) for file in donkey_files(path))
+    files = donkey_files(path)
+    car, where = donkeycar.read((str(file), text_of(file)) for file in files), " and ".join(map(str, files))
     servos = settings.drive.servos
     if not {"steering", "throttle"} <= servos.keys():
         raise ConfigError(
             f"a Donkeycar has steering and throttle; this vehicle has {', '.join(sorted(servos))}"
         )
     fields = (*PULSES, "dead_zone_us")
-    yield from of_servos({"throttle": taken(servos["throttle"], car.throttle)}, fields).items()
-    yield from of_servos({"steering": taken(servos["steering"], car.steering)}).items()
+    yield from of_servos({"throttle": taken(servos["throttle"], car.throttle, where)}, fields).items()
+    yield from of_servos({"steering": taken(servos["steering"], car.steering, where)}).items()
     for name, value in (("bus", car.bus), ("address", car.address)):
         if value is not None and value != getattr(
             Pca9685Settings(**settings.drivers.get("pca9685", {})), name
@@ -67,7 +68,7 @@ def imported(settings: Config, path: Path) -> Iterator[tuple[tuple[str, ...], An
             yield ("drivers", "pca9685", name), value
 
 
-def taken(servo: Servo, output: Output) -> Servo:
+def taken(servo: Servo, output: Output, where: str) -> Servo:
     """Return a servo with the pulses of a Donkeycar."""
     channel = servo.channel if output.channel is None else output.channel
     least, neutral, most = (ticks * DONKEY_TICK_US for ticks in output[1:])
@@ -75,7 +76,7 @@ def taken(servo: Servo, output: Output) -> Servo:
         return replace(servo, channel=channel, min_us=least, neutral_us=neutral, max_us=most)
     except ValueError as error:
         raise ConfigError(
-            f"its pulses, {output.least:g} {output.neutral:g} {output.most:g} ticks: {error}"
+            f"{where}: pulses {output.least:g} {output.neutral:g} {output.most:g} ticks: {error}"
         ) from None
 
 

@@ -2,7 +2,7 @@
 
 import argparse
 from collections.abc import Callable
-from math import degrees
+from math import degrees, inf
 
 from zteleop.bus import clock
 from zteleop.bus.escape import printable
@@ -15,6 +15,7 @@ from zteleop.control.motion.course import Course
 from zteleop.control.motion.pose import Pose2D, pose_of
 from zteleop.control.motion.progress import Progress
 from zteleop.control.motion.trail import Trail
+from zteleop.control.report import in_dead_zone
 from zteleop.errors import BusError
 from zteleop.messages import Odometry, Twist, Vehicle
 
@@ -29,6 +30,8 @@ JUMP, FASTEST = 0.3, 5.0
 """m, and m more for each s since it was last seen, that no robot moves between two looks"""
 STOOD = 1.0
 """s at the end of a course in which a robot that is told to move has not"""
+ASTRAY = 2.0
+"""times as far as a course is, and a metre, after which a robot that is not there will never be"""
 STANDS = 0.5
 """s after the last command in which it comes to rest, and is still looked at"""
 
@@ -68,24 +71,27 @@ class Motion:
             raise BusError(f"{words}; zteleop sim does of a simulated robot, zteleop odometry of any other")
         return self._pose
 
-    def drive(self, course: Course, tell: Callable[[Trail], str], *, by_sight: bool = True) -> None:
+    def drive(
+        self, course: Course, tell: Callable[[Trail], str], *, by_sight: bool = True, most: float = inf
+    ) -> None:
         """Drive to the end of a course and print what came of it; `by_sight` is only while it is seen.
 
+        Whoever has driven `most` m and is not there goes astray.
         Raises BusError where it was not obeyed to the end.
         """
-        over, stood = False, 0.0
+        over, stood, hint = False, 0.0, ""
         self._began = clock.now()
 
         @self._node.every(PERIOD)
         def step() -> None:
-            nonlocal stood
+            nonlocal stood, hint
             if over:
                 return
             now = clock.now()
-            self._why = self._hindrance(now, by_sight)
+            self._why = self._hindrance(now, by_sight) or self._astray(most)
             twist = None if self._why else course.twist(self._pose or Pose2D(), now)
             if twist is None:
-                stood = min(self._trail.stood(now), now - self._began)
+                stood, hint = min(self._trail.stood(now), now - self._began), self._hint
                 self._node.stop()
             else:
                 self._outcome.note(twist)
@@ -106,10 +112,21 @@ class Motion:
         if self._why:
             raise BusError(f"not driven to its end: {self._why}")
         if stood > STOOD and self._progress.is_asked:
-            robot = self._node.robot
-            raise BusError(
-                f"{robot} stood for the last {stood:.1f} s of it; does something stand in its way?"
-            )
+            raise BusError(f"{self._node.robot} stood for the last {stood:.1f} s of it; {hint}")
+
+    def _astray(self, most: float) -> str:
+        """Return what is wrong where it went much farther than it should have."""
+        if self._trail.way <= most:
+            return ""
+        return f"it drove {self._trail.way:.1f} m and is not there; does it steer the way it is told?"
+
+    @property
+    def _hint(self) -> str:
+        """Return why it may stand."""
+        heard, status = self._node.membership.heard().vehicle, self._outcome.status
+        if heard and status and in_dead_zone(heard, status.pulses):
+            return f"{in_dead_zone(heard, status.pulses)}: ask for more"
+        return "does something stand in its way?"
 
     def _told(self, tell: Callable[[Trail], str]) -> str:
         if self._trail:
@@ -133,7 +150,7 @@ class Motion:
         if now - self._seen > SILENT:
             return f"nobody says any more where {robot} is" if by_sight else ""
         if self._trail and self._progress.is_stuck(self._trail, now):
-            return f"{robot} hardly moves; does something stand in its way?"
+            return f"{robot} hardly moves; {self._hint}"
         return ""
 
     def _see(self, received: Received[Odometry]) -> None:

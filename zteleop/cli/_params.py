@@ -80,7 +80,7 @@ class NodeParameters:
 @contextmanager
 def parameters_of(arguments: argparse.Namespace) -> Iterator[NodeParameters]:
     """Join the bus, and yield the parameters of the node meant; raises BusError when it is not there."""
-    settings = _options.load(arguments)
+    settings = _options.load_anyhow(arguments)
     with open_session(settings.bus, settle=True) as session:
         known = presence.with_parameters(session)
         robot, node = find_node(arguments.node, known, settings.robot)

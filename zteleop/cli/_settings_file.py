@@ -3,7 +3,7 @@
 import os
 import stat
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from difflib import unified_diff
 from pathlib import Path
 from typing import Any
@@ -22,19 +22,11 @@ PULSES = ("min_us", "neutral_us", "max_us")
 class SettingsFile:
     """A config file and what it says; one that is not there yet says what is built in.
 
-    Raises ConfigError for a file that is wrong already, or where what changes it is not installed.
+    Raises ConfigError for a file that is wrong already.
     """
 
     def __init__(self, path: Path | None) -> None:
         self.path = path or config.found() or Path("config.toml")
-        try:
-            from zteleop.text.toml_edit import edited
-        except ModuleNotFoundError as error:
-            raise ConfigError(
-                f"changing a config file needs {error.name}, which is not installed; "
-                "say: pip install 'zteleop[calibrate]'"
-            ) from None
-        self._edited = edited
         there = self.path.exists()
         self.settings = config.load(self.path) if there else Config()
         self.text = self.path.read_text(encoding="utf-8") if there else ""
@@ -46,7 +38,7 @@ class SettingsFile:
 
     def changed(self, changes: Changes) -> tuple[str, Config]:
         """Return the text with these values, and the settings it makes; raises ConfigError for wrong ones."""
-        text = self._edited(self.text, changes, dict(self._told(changes)))
+        text = editor()(self.text, changes, dict(self._told(changes)))
         return text, config.parse(text.encode(), str(self.path))
 
     def difference(self, text: str) -> list[str]:
@@ -78,6 +70,18 @@ class SettingsFile:
                 case "drive", "servos", name, field if field in PULSES:
                     if before := self.settings.drive.servos.get(name):
                         yield path, (round(getattr(before, field) / tick), round(value / tick))
+
+
+def editor() -> Callable[..., str]:
+    """Return what changes a text; raises ConfigError where that is not installed."""
+    try:
+        from zteleop.text.toml_edit import edited
+    except ModuleNotFoundError as error:
+        raise ConfigError(
+            f"changing a config file needs {error.name}, which is not installed; "
+            "say: pip install 'zteleop[calibrate]'"
+        ) from None
+    return edited
 
 
 def tick_of(settings: Config) -> float:

@@ -6,7 +6,7 @@ from zteleop.cli import _options
 from zteleop.cli._calibrating import find_out
 from zteleop.cli._consent import ask_consent
 from zteleop.cli._donkeycar import export, imported
-from zteleop.cli._settings_file import PULSES, Changes, SettingsFile, of_servos, pulses_told
+from zteleop.cli._settings_file import PULSES, Changes, SettingsFile, editor, of_servos, pulses_told
 from zteleop.errors import ConfigError
 from zteleop.terminal.typed import open_terminal
 
@@ -50,7 +50,8 @@ def run(arguments: argparse.Namespace) -> int:
             "write the pulses of its motors into [drive.servos] by hand"
         )
     robot = settings.robot or config.own_name()
-    open_terminal()  # before anything turns
+    editor()
+    open_terminal()  # what is missing is said before anything turns
     if settings.driver != "simulated":
         ask_consent(
             f"This turns the steering and the motor on the {settings.driver}, as far as the keys say."

@@ -1,8 +1,8 @@
 import argparse
-from math import ceil
+from math import ceil, tau
 
 from zteleop.cli import _options
-from zteleop.cli._motion import Motion, add_figure, announce
+from zteleop.cli._motion import ASTRAY, Motion, add_figure, announce
 from zteleop.control.motion import pace
 from zteleop.control.motion.course import Laps
 from zteleop.control.motion.trail import Trail
@@ -33,7 +33,8 @@ def run(arguments: argparse.Namespace) -> None:
         speed = arguments.speed or pace.circle_speed(vehicle, radius)
         twist = Twist.planar(speed, (-speed if arguments.right else speed) / radius)
         announce(node, twist)
-        motion.drive(Laps(twist, arguments.laps), lambda trail: told(trail, radius))
+        most = ASTRAY * arguments.laps * tau * radius + 1
+        motion.drive(Laps(twist, arguments.laps), lambda trail: told(trail, radius), most=most)
 
 
 def check(vehicle: Vehicle, radius: float, robot: str) -> None:

@@ -1,7 +1,8 @@
 import argparse
+from math import tau
 
 from zteleop.cli import _options
-from zteleop.cli._motion import Motion
+from zteleop.cli._motion import ASTRAY, Motion
 from zteleop.control.motion import pace
 from zteleop.control.motion.pursuit import Pursuit
 from zteleop.control.motion.trail import Trail
@@ -44,7 +45,8 @@ def run(arguments: argparse.Namespace) -> None:
         here, there = f"x {pose.x:.2f} m, y {pose.y:.2f} m", f"x {x:.2f} m, y {y:.2f} m"
         print(f"drives from {here} to {there}, at {speed:g} m/s at most", flush=True)
         course = Pursuit(vehicle, x, y, speed, arguments.within)
-        motion.drive(course, lambda trail: told(trail, x, y))
+        most = ASTRAY * off + 2 * tau * pace.easy_radius(vehicle) + 1  # and it may have to turn round first
+        motion.drive(course, lambda trail: told(trail, x, y), most=most)
 
 
 def told(trail: Trail, x: float, y: float) -> str:

@@ -1,9 +1,11 @@
 import argparse
+import sys
 from pathlib import Path
 
 from zteleop import config
 from zteleop.bus.names import robot_name
 from zteleop.cli import _options
+from zteleop.cli._salvage import salvage
 from zteleop.config import Config
 from zteleop.control.calibration import Calibration
 from zteleop.drivers import DRIVERS, open_driver
@@ -45,6 +47,7 @@ def _near(path: str) -> str:
 def run(arguments: argparse.Namespace) -> None:
     """Write neutral first and ask afterwards: it is never wrong."""
     settings = _options.salvaged(arguments)
+    is_whole = not salvage(arguments.config)[1]
     robot = robot_name(arguments.robot or settings.robot or config.own_name())
     name = arguments.driver or settings.driver
     chip = settings.driver_settings(name, robot)
@@ -63,3 +66,6 @@ def run(arguments: argparse.Namespace) -> None:
         f"{robot} at rest, in {where}: "
         + ", ".join(f"{p.name} {p.pulse_us:.0f} us = {p.duty_ticks} ticks" for p in pulses)
     )
+    if not is_whole:
+        words = "what of them is built in may not be this robot's: correct the file, and say it again"
+        print(f"zteleop neutral: warning: {words}", file=sys.stderr)

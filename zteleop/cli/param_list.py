@@ -23,7 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the parameters of each node; return 1 where one of several does not answer."""
-    settings = _options.load(arguments)
+    settings = _options.load_anyhow(arguments)
     with open_session(settings.bus, settle=True) as session:
         known = presence.with_parameters(session)
         if arguments.node:

@@ -2,7 +2,7 @@ import argparse
 from math import degrees
 
 from zteleop.cli import _options
-from zteleop.cli._motion import Motion, add_figure
+from zteleop.cli._motion import ASTRAY, Motion, add_figure
 from zteleop.control.motion import pace
 from zteleop.control.motion.trail import Trail
 from zteleop.control.motion.way import Way, square
@@ -31,7 +31,8 @@ def run(arguments: argparse.Namespace) -> None:
         print(f"drives four sides of {side:g} m at {speed:g} m/s, joined by {corners}", flush=True)
         most = 1 / pace.least_radius(vehicle) if vehicle.steers else CORRECTS
         legs = square(start, side, corner, arguments.right)
-        motion.drive(Way(legs, speed, pace.turn_speed(vehicle), most), told)
+        way = ASTRAY * sum(leg.length for leg in legs) + 1
+        motion.drive(Way(legs, speed, pace.turn_speed(vehicle), most), told, most=way)
 
 
 def told(trail: Trail) -> str:

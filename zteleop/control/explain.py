@@ -215,11 +215,20 @@ def _wheels(seen: Snapshot, chip: Evidence) -> str:
     """Return what the chip took, however long ago, and what is known of a stop."""
     pulses = seen.calibration.pulses(chip.pulse_us)
     said = [", ".join(f"{p.name} {p.pulse_us:.0f} us = {p.duty_ticks} ticks" for p in pulses)]
+    said += _dead_zones(seen, chip)
     if seen.now - chip.written > OLD:
         said.append(f"which the chip took {seen.now - chip.written:.1f} s ago, and nothing since")
     if seen.stopped:
         said.append(STANDS[chip.confirmed])
     return "; ".join(said)
+
+
+def _dead_zones(seen: Snapshot, chip: Evidence) -> Iterator[str]:
+    """Yield which motors are asked for something that does not turn them yet."""
+    for name, servo in seen.settings.servos.items():
+        off = abs(chip.pulse_us.get(servo.channel, servo.neutral_us) - servo.neutral_us)
+        if seen.step.claim and 0 < off <= servo.dead_zone_us:
+            yield f"{name} is in its motor's dead zone, and does not turn it yet"
 
 
 def _asked(claim: Claim) -> str:

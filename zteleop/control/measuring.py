@@ -87,9 +87,12 @@ class Measuring:
             self.found.pop(self.step.find, None)
             self._number += 1
 
-    def back(self) -> None:
-        """Ask the step before once more."""
-        self._number = max(self._first, self._number - 1)
+    def back(self) -> str:
+        """Ask the step before once more; where that cannot be, say why."""
+        if self._number == self._first:
+            return "the neutral that was found is in use, and stays" if self._first else "this is the first"
+        self._number -= 1
+        return ""
 
     def servos(self) -> dict[str, Servo]:
         """Return both servos as found; raises ValueError where old and new values make none."""

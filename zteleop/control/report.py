@@ -1,5 +1,7 @@
 """What an actuator says of itself."""
 
+from collections.abc import Sequence
+
 from zteleop.control.drive import Drive, Step
 from zteleop.control.evidence import Evidence
 from zteleop.control.explain import applied, slowed, top_speed, wanted
@@ -8,7 +10,7 @@ from zteleop.control.proof import called
 from zteleop.control.refusals import Turned
 from zteleop.control.settings import DriveSettings
 from zteleop.control.snapshot import Snapshot, snapshot
-from zteleop.messages import DriveStatus, Refusals, Refused, Vehicle
+from zteleop.messages import DriveStatus, Pulse, Refusals, Refused, Vehicle
 
 
 def to_vehicle(settings: DriveSettings, tick_us: float, ready: bool = True) -> Vehicle:
@@ -25,6 +27,16 @@ def to_vehicle(settings: DriveSettings, tick_us: float, ready: bool = True) -> V
         max_steering_angle=mixer.max_steering_angle,
         operator_silence=settings.deadlines.operator,
     )
+
+
+def in_dead_zone(vehicle: Vehicle, pulses: Sequence[Pulse]) -> str:
+    """Say which channel asks its motor to turn, and by too little; nothing where none does."""
+    ticks = {pulse.name: pulse.duty_ticks for pulse in pulses}
+    for channel in vehicle.channels:
+        off = abs(ticks.get(channel.name, channel.neutral_ticks) - channel.neutral_ticks)
+        if 0 < off <= channel.dead_ticks:
+            return f"its {channel.name} is in the motor's dead zone"
+    return ""
 
 
 def status(drive: Drive, step: Step, chip: Evidence, now: float, unkept: str = "") -> DriveStatus:

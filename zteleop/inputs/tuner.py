@@ -113,8 +113,9 @@ class Tuner(Keyboard):
                 return
         elif answer == "s":
             measuring.skip()
-        else:
-            measuring.back()
+        elif said := measuring.back():
+            self._note = said
+            return
         self._answering.axis = measuring.step.axis
         self._turned = False
         self.neutral()

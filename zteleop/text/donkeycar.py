@@ -67,7 +67,7 @@ def written(car: Donkeycar) -> str:
     """Return the text of a `myconfig.py` for a car whose channels, bus and address are known."""
     chip = f"PCA9685.{car.bus}:{car.address:x}" if car.address is not None else ""
     return f'''\
-# This car's calibration, written by `zteleop calibrate --export`.
+# This car's calibration, written by `zteleop calibrate --to-donkeycar`.
 
 {TRAIN} = "{TABLE}"
 {TABLE} = {{
@@ -185,6 +185,8 @@ class _Reading:
 
     def _outputs(self, channels: Iterable[int | None], scales: Iterable[float]) -> tuple[Output, Output]:
         (steering, throttle), (steer, drive) = channels, scales
+        if steering is not None and steering == throttle:
+            raise ConfigError(f"{self._files}: steering and throttle are both on channel {steering}")
         left, right = self._ticks("STEERING_LEFT_PWM"), self._ticks("STEERING_RIGHT_PWM")
         stopped = self._ticks("THROTTLE_STOPPED_PWM")
         if self._get("THROTTLE_FORWARD_PWM") or self._get("THROTTLE_REVERSE_PWM"):

@@ -4,6 +4,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from zteleop.bus.subscription import Received
 from zteleop.cli import circle, drive, square
@@ -14,7 +15,7 @@ from zteleop.control.motion.pose import Pose2D
 from zteleop.control.motion.progress import Progress
 from zteleop.control.motion.trail import Trail
 from zteleop.errors import BusError, ConfigError
-from zteleop.messages import Odometry, Twist, Vehicle
+from zteleop.messages import Odometry, Pulse, Twist, Vehicle
 from zteleop.testing import Clock, FakeNode
 
 
@@ -130,6 +131,7 @@ def test_a_course_goes_on_for_as_long_as_it_is_obeyed_seen_and_makes_way(
     motion._began, motion._lost = now + seen.get("began", 0.0), now + seen.get("since", 0.0)
     motion._seen, motion._trail = now + seen.get("seen", 0.0), arc(1.0, 1.0)
     motion._anew = seen.get("anew", False)
+    motion._outcome.status = None
     motion._progress = SimpleNamespace(is_stuck=lambda trail, now: "stuck" in seen)  # type: ignore[assignment]
     assert motion._hindrance(now, by_sight) == words
 
@@ -163,9 +165,7 @@ def test_what_another_drove_is_not_told_as_its_own(
 
 def test_a_robot_that_stood_at_the_end_is_no_success(clock: Clock) -> None:
     motion, node = steady(clock, trail(Pose2D(), Pose2D(0.2), Pose2D(0.2)))
-    with pytest.raises(
-        BusError, match=r"bench stood for the last 2\.\d s of it; does something stand"
-    ):
+    with pytest.raises(BusError, match=r"bench stood for the last 2\.\d s of it; does something stand"):
         motion.drive(Steady(Twist.planar(0.5), 2.5), went)
     motion, node = steady(clock, trail(Pose2D(), Pose2D(0.2)))
     node.every(0.1)(lambda: motion._trail.add(Pose2D(0.2 + 0.5 * node.loop.clock.time), node.loop.clock.time))
@@ -180,8 +180,39 @@ def steady(clock: Clock, seen: Trail, *, obeyed: bool = True, refused: str = "")
     motion._publisher = node.publisher("cmd_vel", Twist)  # type: ignore[assignment]
     motion._publisher.refused = refused  # type: ignore[misc]
     motion._outcome = SimpleNamespace(  # type: ignore[assignment]
-        obeyed=obeyed, is_taken=False, lost="", heard_at=float("inf"), note=id, check=lambda: None
+        obeyed=obeyed,
+        is_taken=False,
+        status=None,
+        lost="",
+        heard_at=float("inf"),
+        note=id,
+        check=lambda: None,
     )
     motion._progress, motion._trail, motion._pose, motion._why = Progress(), seen, Pose2D(), ""
     motion._hindrance = lambda now, by_sight: ""  # type: ignore[method-assign]
     return motion, node
+
+
+def test_whoever_goes_much_farther_than_the_course_is_goes_astray(clock: Clock) -> None:
+    motion, _ = steady(clock, trail(*(Pose2D(step / 10) for step in range(60))))
+    with pytest.raises(
+        BusError, match=r"it drove 5\.9 m and is not there; does it steer the way it is told\?"
+    ):
+        motion.drive(Steady(Twist.planar(0.5), 2.0), went, most=5.0)
+    motion, _ = steady(clock, trail(*(Pose2D(step / 10) for step in range(20))))
+    assert motion._astray(5.0) == ""
+
+
+def test_a_motor_in_its_dead_zone_is_why_it_stands(clock: Clock, car: Vehicle) -> None:
+    motion, node = steady(clock, trail(Pose2D(), Pose2D(0.2)))
+    channels = [replace(channel, dead_ticks=3) for channel in car.channels]
+    node.hear_beat(vehicle=replace(car, channels=channels))
+    neutral = next(channel.neutral_ticks for channel in channels if channel.name == "throttle")
+    for off, words in (
+        (3, "its throttle is in the motor's dead zone: ask for more"),
+        (4, "something"),
+        (0, "some"),
+    ):
+        pulse = Pulse("throttle", 0, 0.1, 4.08 * (neutral + off), neutral + off)
+        motion._outcome.status = SimpleNamespace(pulses=[pulse])  # type: ignore[assignment]
+        assert words in motion._hint

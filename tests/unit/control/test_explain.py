@@ -315,3 +315,15 @@ def test_a_bound_of_the_yaw_rate_slows_a_car_on_its_curve_and_is_named(command: 
     assert told.slowed == "limits.turn is 0.1 rad/s"
     assert 0 < told.max_speed < 0.5
     assert abs(told.applied.angular.z) == pytest.approx(0.1, abs=0.001)
+
+
+def test_a_motor_that_is_asked_for_too_little_to_turn_is_named() -> None:
+    robot = Robot()
+    robot.hold(Twist.planar(0.05), 0.5)
+    said = says(robot)["wheels"]
+    assert "throttle is in its motor's dead zone, and does not turn it yet" in said
+    assert "steering is in" not in said
+    robot.hold(Twist.planar(0.5), 0.5)
+    assert "dead zone" not in says(robot)["wheels"]
+    robot.hold(REST, 1.0)
+    assert "dead zone" not in says(robot)["wheels"]

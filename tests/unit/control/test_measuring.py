@@ -119,10 +119,11 @@ def test_nothing_is_taken_between_the_two_parts() -> None:
 
 def test_back_asks_once_more_but_never_what_neutral_was_made_of() -> None:
     measuring = at("full left")
-    measuring.back()
+    assert measuring.back() == ""
     assert measuring.step.find == "straight"
-    measuring.back()
+    assert "neutral that was found is in use" in measuring.back()
     assert measuring.step.find == "straight"
+    assert Measuring(DONKEYCAR, TICK).back() == "this is the first"
 
 
 def test_what_is_skipped_after_it_was_found_is_forgotten() -> None:

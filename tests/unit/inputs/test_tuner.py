@@ -219,3 +219,19 @@ def test_another_calibration_is_neutral(hand: Hand) -> None:
     hand.type(UP)
     hand.tuner.fit(to_vehicle(DriveSettings(servos=DONKEYCAR), TICK))
     assert hand.asked is None
+
+
+def test_what_cannot_be_asked_again_is_said(hand: Hand) -> None:
+    hand.type(b"b")
+    assert hand.tuner.in_vain == "this is the first"
+    hand.type(b"s")
+    hand.type(b"b")
+    assert hand.measuring.number == 0
+    assert hand.tuner.in_vain == ""
+
+
+def test_what_was_found_is_told_in_the_ticks_that_were_shown(hand: Hand) -> None:
+    hand.go_to(2)
+    hand.type(FAR_UP * 2)
+    hand.type(ENTER)
+    assert ("found", "straight 395") in hand.tuner.about
