@@ -151,7 +151,7 @@ def test_a_demo_whose_simulator_is_gone_says_so_and_what_to_do(screen: Terminal)
     numbers = Path(f"/proc/{screen.process.pid}/task/{screen.process.pid}/children").read_text().split()
     (simulator,) = (int(pid) for pid in numbers if " sim " in command_line(Path(f"/proc/{pid}")))
     os.kill(simulator, signal.SIGKILL)
-    screen.shows("demo  its simulator ended: q, and start another")
+    screen.shows("demo: its simulator ended: q, and start another")
     screen.type("q")
     assert screen.ends() == 0
 

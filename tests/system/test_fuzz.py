@@ -12,7 +12,7 @@ from fuzz.reading import corpus, is_key, parts
 from rig import NEUTRAL, Process, Rig, Watch, hear, repeating, until
 
 from zteleop.bus import codec
-from zteleop.bus.topics import TOPICS
+from zteleop.bus.topics import TOPICS, topic_of
 from zteleop.messages import Beat, Log, Stop, String, Twist
 
 BLOCK = zenoh.CongestionControl.BLOCK
@@ -172,7 +172,7 @@ def replay(stranger: zenoh.Session) -> None:
     attachments = cycle([None, *(file.read_bytes() for file in corpus("attachment"))])
     for file, path in product(corpus("message"), PATHS):
         encoding, payload = parts(file.read_bytes())
-        accepted = TOPICS[path.partition("/")[0]].types[0]
+        accepted = topic_of(path).types[0]
         for said_as in (encoding, codec.encoding_of(accepted)):
             key = f"robot/bench/{path}"
             stranger.put(
@@ -192,7 +192,7 @@ def test_the_corpus_on_every_topic(company: Company, stranger: zenoh.Session, ha
 def test_what_is_too_large_on_every_topic(company: Company, stranger: zenoh.Session, harmless: None) -> None:
     before = company.memory
     for payload, path in product(BIG, PATHS):
-        encoding = codec.encoding_of(TOPICS[path.partition("/")[0]].types[0])
+        encoding = codec.encoding_of(topic_of(path).types[0])
         stranger.put(f"robot/bench/{path}", payload, encoding=encoding, congestion_control=BLOCK)
     company.hears_out()
     assert company.memory - before < 4 * GROWTH  # the allocator keeps some for the next one

@@ -19,7 +19,7 @@ def test_five_questions_make_a_file_that_starts_a_robot(rig: Rig) -> None:
         ("what is the robot called? [car-", "archangel"),
         ("what is it: car or tank? [car]", "tonk"),
         ("expected car or tank, found 'tonk'; did you mean tank?", "tank"),
-        ("which chip makes its pulses: pca9685 or simulated? [simulated]", ""),
+        ("which chip makes its pulses: pca9685, simulated or sysfs_pwm? [simulated]", ""),
         ("on which channels are left and right? [0 1]", "3 3"),
         ("expected two different channels from 0 to 15, such as 0 1, found '3 3'", "3, 4"),
         ("how many m between its wheels? [20cm]", "5kg"),

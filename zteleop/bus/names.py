@@ -58,14 +58,14 @@ def resolve(text: str, robot: str | None) -> Name:
     parts = text.removeprefix("/").removeprefix("robot/").rstrip("/").split("/")
     of_ros = text.startswith("/") and len(parts) == 1 and parts[0] not in ("", robot)  # /odom, as ROS says it
     absolute = text.startswith(("/", "robot/")) and not of_ros
-    if not absolute and (len(parts) == 1 or _known(parts[0])):
+    if not absolute and (len(parts) == 1 or _known(parts[0]) or "/".join(parts) in TOPICS):
         if robot is None:
             raise ConfigError(
                 f"topic {text!r} names no robot; say ROBOT/{'/'.join(parts)}, --robot ROBOT "
                 "or Node(..., robot='ROBOT')"
             )
         parts = [robot, *parts]
-    elif not absolute and robot not in (None, parts[0]) and not _known(parts[1]):
+    elif not absolute and robot not in (None, parts[0]) and not _begins_topic(parts[1:]):
         raise ConfigError(
             f"{text!r} could be robot {parts[0]}'s or {robot}'s; say /{text} or /{robot}/{text}"
         )
@@ -75,6 +75,11 @@ def resolve(text: str, robot: str | None) -> Name:
         )
     path = [ALIASES.get(parts[1], parts[1]), *parts[2:]]
     return Name(robot_name(parts[0]), "/".join(chunk(part, "a topic's name") for part in path))
+
+
+def _begins_topic(parts: list[str]) -> bool:
+    """Say whether what stands behind a robot's name is one of its topics."""
+    return _known(parts[0]) or "/".join(parts) in TOPICS
 
 
 def as_typed(text: str, robot: str) -> str:

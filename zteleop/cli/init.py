@@ -71,7 +71,7 @@ class Questions:
         robot = self._ask("what is the robot called?", config.own_name(), robot_name)
         vehicle = self._ask("what is it: car or tank?", "car", lambda said: one_of(said, WHEELS))
         driver = self._ask(
-            f"which chip makes its pulses: {' or '.join(DRIVERS)}?",
+            f"which chip makes its pulses: {', '.join([*DRIVERS][:-1])} or {[*DRIVERS][-1]}?",
             "pca9685" if I2C.exists() else "simulated",
             lambda said: one_of(said, DRIVERS),
         )

@@ -35,7 +35,7 @@ def task_lines(d: Dashboard, columns: int) -> list[Line]:
     words = [
         line(1, text, "bold" if name else "dim")
         for name, said in d.task
-        for text in wrap(f"{name}  {said}", columns)
+        for text in wrap(f"{name}: {said}" if name else said, columns)
     ]
     return [*words, line(9)]
 

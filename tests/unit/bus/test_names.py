@@ -129,3 +129,16 @@ def test_a_bad_chunk_is_refused_by_what_it_should_be(text: str) -> None:
 
 def test_a_name_is_its_key() -> None:
     assert Name("archangel", "cmd_vel/web").key == "robot/archangel/cmd_vel/web"
+
+
+@pytest.mark.parametrize(
+    ("text", "robot", "found"),
+    [
+        ("camera/image/compressed", "abe", "abe/camera/image/compressed"),
+        ("zoe/camera/image/compressed", "abe", "zoe/camera/image/compressed"),
+        ("/zoe/camera/image/compressed", None, "zoe/camera/image/compressed"),
+        ("camera/odom", None, "camera/odom"),
+    ],
+)
+def test_a_known_topic_of_several_parts_is_no_robots_name(text: str, robot: str | None, found: str) -> None:
+    assert str(resolve(text, robot)) == found

@@ -256,7 +256,7 @@ def test_a_task_stands_above_the_values_in_whole_words_and_nothing_pictures_what
     lines = shown(board(car)._replace(task=TASK), columns, rows)
     text = " ".join(" ".join(lines).split())
     assert (
-        "3 of 7 left and right turn the steering. Press enter when the wheels point straight ahead." in text
+        "3 of 7: left and right turn the steering. Press enter when the wheels point straight ahead." in text
     )
     first, asked = (
         next((row for row, line in enumerate(lines) if line.startswith(word)), rows)
