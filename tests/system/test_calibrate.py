@@ -169,6 +169,16 @@ def test_a_stop_from_anywhere_stops_it_and_what_is_stopped_is_no_answer(rig: Rig
     assert rig.ticks == NEUTRAL
 
 
+def test_a_program_that_was_left_running_turns_no_motor(rig: Rig) -> None:
+    """Its twist would be full throttle of a servo that may go as far as any."""
+    screen = calibrate(rig)
+    program = rig.join("pub", "cmd_vel", "Twist", "{linear: {x: 3.0}}", "-r", "10")
+    screen.shows("program")
+    program.says("publishing #20")
+    assert abs((rig.ticks[THROTTLE] or 0) - NEUTRAL[THROTTLE]) <= 1
+    program.close()
+
+
 def test_a_calibration_that_is_killed_leaves_neutral_and_nobody_behind(rig: Rig) -> None:
     screen = calibrate(rig)
     screen.type(UP * 5)

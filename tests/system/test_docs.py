@@ -62,4 +62,4 @@ def test_lines_of_a_page_that_need_no_robot_hold_for_the_example_they_speak_of(
 
 
 def test_the_pages_have_what_is_run_here() -> None:
-    assert (len(PROGRAMS), len(ALONE), len(SETTINGS)) == (5, 2, 3)
+    assert (len(PROGRAMS), len(ALONE), len(SETTINGS)) == (6, 2, 3)

@@ -1,7 +1,6 @@
 """A robot whose servos may turn as far as any, and somebody who watches the wheels and answers."""
 
 import sys
-import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
@@ -13,6 +12,7 @@ from zteleop.bus import clock
 from zteleop.bus.node import Node
 from zteleop.cli import _options
 from zteleop.cli._driving import drive_at_terminal
+from zteleop.cli._scratch import scratch
 from zteleop.cli._settings_file import PULSES, SettingsFile, of_servos, tick_of
 from zteleop.config import Config
 from zteleop.control.measuring import STEPS, Measuring
@@ -35,6 +35,9 @@ READY = " obeys"
 KNOWN = "the motor's neutral is known: the robot starts anew with it, two seconds or so"
 SLOW = 0.1
 """m/s at full throttle, as this robot is told: no limit of speed then keeps a motor from its end"""
+SOURCE = "keyboard"
+CREEP = SLOW / 1000
+"""m/s: so little of a wide servo is within the dead zone of any motor"""
 
 
 def find_out(file: SettingsFile, settings: Config, robot: str) -> dict[str, Servo] | None:
@@ -49,7 +52,7 @@ def find_out(file: SettingsFile, settings: Config, robot: str) -> dict[str, Serv
         with running(file, settings, robot, measuring) as node:
             tuner = Tuner(Typed(open_terminal()), measuring)
             known = Dashboard(robot, "step", settings.speeds, bound=tuner.bound, steps=TICK)
-            drive_at_terminal(node, settings, tuner, "keyboard", known, watch=seen_by(tuner), task=tuner.task)
+            drive_at_terminal(node, settings, tuner, SOURCE, known, watch=seen_by(tuner), task=tuner.task)
         if tuner.gave_up:
             return None
         if not measuring.number < len(STEPS):
@@ -75,7 +78,7 @@ def seen_by(tuner: Tuner) -> Callable[[View], None]:
 def running(file: SettingsFile, settings: Config, robot: str, measuring: Measuring) -> Iterator[Node]:
     """Run the actuator of the robot itself, with wide servos, and join the bus beside it."""
     with ExitStack() as stack:
-        folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="zteleop-calibrate-")))
+        folder = stack.enter_context(scratch("zteleop-calibrate-"))
         log = stack.enter_context((folder / "log").open("w"))
         (folder / "config.toml").write_text(wide(file, settings, robot, measuring), encoding="utf-8")
         verb = ("actuator", "--config", str(folder / "config.toml"), "--robot", robot)
@@ -95,6 +98,10 @@ def wide(file: SettingsFile, settings: Config, robot: str, measuring: Measuring)
         ("drive", "mixer", "max_speed"): SLOW,
         **{("bus", name): getattr(bus, name) for name in ("mode", "connect", "listen", "multicast")},
     }
+    for name, source in settings.drive.known_sources.items():
+        if name != SOURCE:  # a program that was left running turns no motor now
+            changes["drive", "sources", name, "priority"] = source.priority
+            changes["drive", "sources", name, "max_speed"] = CREEP
     if settings.driver == "simulated":
         changes["drivers", "simulated", "path"] = settings.driver_settings("simulated", robot)["path"]
     return file.changed(changes)[0]

@@ -1,7 +1,10 @@
 """What can be read of a settings file that is not right, for verbs that must not fail for a typo."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from copy import deepcopy
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -9,10 +12,14 @@ import msgspec
 
 from zteleop import config
 from zteleop.config import Config
+from zteleop.drivers import DRIVERS, settings_kind
 from zteleop.errors import ConfigError
+from zteleop.text.mistakes import mistakes
 
 Values = dict[str, Any]
 _UNREADABLE = (msgspec.DecodeError, ValueError, RecursionError)
+ROUNDS = 3
+"""of mending: one value put right may show that another is wrong"""
 _TABLES = re.compile(rb"^(?=[ \t]*\[)", re.MULTILINE)
 
 
@@ -23,7 +30,17 @@ def salvage(path: Path | None = None) -> tuple[Config, str]:
     except ConfigError as error:
         first, *more = str(error).splitlines()
         wrong = f"{first} (and {len(more)} more, says zteleop check)" if more else first
-        return _convert(_sound(_read(_text(path)))) or Config(), wrong
+        values = _read(_text(path))
+        mended = None
+        with suppress(ValueError, TypeError, LookupError, RecursionError):  # the rest is tried all the same
+            mended = _mended(values)
+        return mended or _convert(_sound(values)) or Config(), wrong
+
+
+def unknown_driver(path: Path | None = None) -> str:
+    """Return what a file calls its driver where there is no such driver; nothing where all is well."""
+    driver = _read(_text(path)).get("driver", "simulated")
+    return "" if driver in DRIVERS else str(driver)
 
 
 def _text(path: Path | None) -> bytes:
@@ -66,6 +83,33 @@ def _merge(values: Values, more: Values) -> None:
             _merge(values[name], value)
         else:
             values[name] = value
+
+
+def _mended(values: Values) -> Config | None:
+    """Return the settings with what is built in for each value that is wrong, where that is enough."""
+    mended, usual = deepcopy(values), msgspec.to_builtins(Config())
+    kinds: dict[tuple[str, ...], Any] = {("drivers", driver): settings_kind(driver) for driver in DRIVERS}
+    for _ in range(ROUNDS):
+        if settings := _convert(mended):
+            return settings
+        for path, _ in list(islice(mistakes(mended, Config, kinds), config.MOST)):
+            _put_back(mended, usual, path)
+    return _convert(mended)
+
+
+def _put_back(values: Values, usual: Any, path: Sequence[str]) -> None:
+    """Put what is built in at a place, or take away what has no place there."""
+    *tables, name = path or ("",)
+    for table in tables:
+        usual = usual.get(table, {}) if isinstance(usual, dict) else {}
+        inner = values.get(table)
+        if not isinstance(inner, dict):
+            return
+        values = inner
+    if isinstance(usual, dict) and name in usual:
+        values[name] = deepcopy(usual[name])
+    else:
+        values.pop(name, None)
 
 
 def _sound(values: Values, *path: str) -> Values:

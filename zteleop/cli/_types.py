@@ -12,8 +12,10 @@ from zteleop.messages import SERVICES, Message, is_called, message_type
 def find_type(name: str, bus: BusSettings) -> type[Message]:
     """Return the type of that name, and ask on the bus only where nobody here knows it.
 
+    As C++ and Python write it, `geometry_msgs::msg::Twist` and `geometry_msgs.msg.Twist`, it is the same.
     Raises MessageError with the nearest names where nobody there does either.
     """
+    name = name.replace("::", "/").replace(".", "/")
     try:
         return message_type(name)
     except MessageError as error:

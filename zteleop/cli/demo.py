@@ -3,7 +3,6 @@ import secrets
 import shutil
 import socket
 import sys
-import tempfile
 from collections.abc import Sequence
 from contextlib import ExitStack
 from functools import partial
@@ -15,6 +14,7 @@ from zteleop.bus.node import Node
 from zteleop.bus.settings import SAME_MACHINE_DOOR, BusSettings
 from zteleop.cli import _scenes
 from zteleop.cli._driving import find_vehicle
+from zteleop.cli._scratch import scratch
 from zteleop.cli.blackbox import DEMO
 from zteleop.cli.keyboard import drive_with_keys
 from zteleop.config import Config
@@ -62,7 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
     robot = f"demo-{secrets.token_hex(2)}"
     endpoint = f"tcp/127.0.0.1:{_free_port()}"
     with ExitStack() as stack:
-        folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix=DEMO)))
+        folder = stack.enter_context(scratch(DEMO))
         log = stack.enter_context((folder / "log").open("w"))
         (folder / "config.toml").write_text(f'[drivers.simulated]\npath = "{folder / "chip"}"\n')
         where = ["--config", str(folder / "config.toml"), "--robot", robot, "--no-multicast-scouting"]

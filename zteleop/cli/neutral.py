@@ -5,11 +5,11 @@ from pathlib import Path
 from zteleop import config
 from zteleop.bus.names import robot_name
 from zteleop.cli import _options
-from zteleop.cli._salvage import salvage
+from zteleop.cli._salvage import salvage, unknown_driver
 from zteleop.config import Config
 from zteleop.control.calibration import Calibration
 from zteleop.drivers import DRIVERS, open_driver
-from zteleop.errors import DeviceError, nearest
+from zteleop.errors import ConfigError, DeviceError, nearest
 
 EXAMPLES = (
     "zteleop neutral",
@@ -47,6 +47,11 @@ def _near(path: str) -> str:
 def run(arguments: argparse.Namespace) -> None:
     """Write neutral first and ask afterwards: it is never wrong."""
     settings = _options.salvaged(arguments)
+    if not arguments.driver and (said := unknown_driver(arguments.config)):
+        raise ConfigError(
+            f"nothing was written: which chip is meant by driver = {said!r}? {nearest(said, DRIVERS)}; "
+            "say --driver NAME"
+        )
     is_whole = not salvage(arguments.config)[1]
     robot = robot_name(arguments.robot or settings.robot or config.own_name())
     name = arguments.driver or settings.driver

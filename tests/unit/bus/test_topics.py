@@ -1,3 +1,4 @@
+import msgspec
 import pytest
 
 from zteleop.bus.names import resolve
@@ -35,3 +36,11 @@ def test_every_source_belongs_to_its_topic(path: str) -> None:
 def test_an_unknown_topic_is_a_plain_one(path: str) -> None:
     topic = topic_of(path)
     assert (topic.name, topic.types, topic.command, topic.urgent) == (path, (), False, False)
+
+
+@pytest.mark.parametrize("ticks", [-32769, 32768, 375.5, "375"])
+def test_pulses_are_whole_numbers_of_sixteen_bits(ticks: object) -> None:
+    with pytest.raises(msgspec.ValidationError):
+        msgspec.convert({"steering_ticks": ticks, "throttle_ticks": 370}, Pwm)
+    with pytest.raises(msgspec.ValidationError):
+        msgspec.convert({"layout": {"dim": [], "data_offset": 0}, "data": [ticks, 370]}, Int16MultiArray)

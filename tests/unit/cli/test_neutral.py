@@ -109,3 +109,25 @@ def test_a_robot_that_has_no_chip_moves_nothing_and_is_perhaps_another(
     assert "archangle has no simulated chip at " in words
     assert words.endswith("archangle.pca9685: nothing of it moves; did you mean archangel?\n")
     assert not (tmp_path / "zteleop" / "archangle.pca9685").exists()
+
+
+def test_with_one_bad_value_it_is_the_neutral_of_the_file_and_says_that_more_may_be_wrong(
+    chip: str, tmp_path: Path, capsys: Capture
+) -> None:
+    with (tmp_path / "config.toml").open("a") as file:
+        file.write("[drive.servos.throttle]\nchannel = 0\nneutral_us = 1500\nmax_us = 9999\n")
+        file.write("[drive.servos.steering]\nchannel = 1\nneutral_us = 1485.1\n")
+    assert neutral() == 0
+    assert ticks(chip) == (368, 364)
+    assert "what of them is built in may not be this robot's" in capsys.readouterr().err
+
+
+def test_a_driver_that_there_is_not_is_no_simulated_chip(chip: str, tmp_path: Path, capsys: Capture) -> None:
+    config = tmp_path / "config.toml"
+    config.write_text(f'driver = "pca9658"\n{config.read_text()}')
+    assert neutral() == 1
+    said = " ".join(capsys.readouterr().err.split())
+    assert "nothing was written: which chip is meant by driver = 'pca9658'? did you mean pca9685?" in said
+    assert ticks(chip) != (370, 375)
+    assert neutral("--driver", "simulated") == 0
+    assert ticks(chip) == (370, 375)

@@ -56,3 +56,44 @@ def test_a_table_of_which_a_part_is_wrong_keeps_the_rest(file: Path) -> None:
     settings, _ = salvage(file)
     assert settings.steps.steering_step_ticks == 9
     assert settings.speeds == Speeds(forward=0.7)
+
+
+SERVOS = """
+[drive.servos.throttle]
+channel = 0
+min_us = 900.0
+neutral_us = 1400.0
+max_us = 2000.0
+[drive.servos.steering]
+channel = 1
+min_us = 1300.0
+neutral_us = 1485.0
+max_us = 1700.0
+"""
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong"),
+    [
+        ("channel = 0", "channel = 99"),
+        ("max_us = 2000.0", "max_us = 9999"),
+        ("max_us = 2000.0", 'max_us = "far"'),
+        ("min_us = 900.0", "mn_us = 900.0"),
+        ("min_us = 900.0\n", "min_us = 900.0\nslew = 3\n"),
+    ],
+)
+def test_one_bad_value_of_a_servo_costs_neither_its_neutral_nor_the_other_servo(
+    file: Path, right: str, wrong: str
+) -> None:
+    file.write_text(SERVOS.replace(right, wrong, 1))
+    settings, said = salvage(file)
+    assert said
+    servos = settings.drive.servos
+    assert (servos["throttle"].neutral_us, servos["steering"].neutral_us) == (1400.0, 1485.0)
+
+
+def test_a_servo_whose_pulses_cannot_be_is_as_built_in_and_the_other_stays(file: Path) -> None:
+    file.write_text(SERVOS.replace("max_us = 1700.0", "max_us = 1400.0"))
+    servos = salvage(file)[0].drive.servos
+    assert servos["steering"] == Config().drive.servos["steering"]
+    assert servos["throttle"].neutral_us == 1400.0

@@ -150,3 +150,8 @@ def test_what_is_wrong_is_said_with_its_place(text: str, words: str) -> None:
     with pytest.raises(ConfigError) as caught:
         car(text)
     assert words in str(caught.value)
+
+
+def test_two_servos_on_one_channel_are_refused_by_the_names_of_the_files() -> None:
+    with pytest.raises(ConfigError, match=r"^file0\.py and file1\.py: steering and throttle are both on"):
+        car(FLAT, "STEERING_CHANNEL = 3\n")
