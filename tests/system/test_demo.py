@@ -156,16 +156,6 @@ def test_a_demo_whose_simulator_is_gone_says_so_and_what_to_do(screen: Terminal)
     assert screen.ends() == 0
 
 
-def test_a_black_box_of_a_demo_is_found_while_it_runs(rig: Rig, screen: Terminal) -> None:
-    robot = robot_of(screen)
-    screen.type("\x7f")
-    screen.shows("stopped")
-    until(lambda: rig.result("blackbox", robot).returncode == 0, "a black box")
-    assert "stop" in rig.result("blackbox", "--list").stdout
-    screen.type("q")
-    assert screen.ends() == 0
-
-
 def test_a_tank_is_driven_in_a_maze(rig: Rig) -> None:
     screen = rig.terminal("demo", "--vehicle", "tank", "--scene", "maze")
     screen.shows("hold drive", "left 368, right 368")
