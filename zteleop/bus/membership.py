@@ -14,6 +14,7 @@ from zteleop.bus.session import Delivery, Inbox, Outlet, Session
 from zteleop.bus.subscription import Subscription
 from zteleop.bus.topics import topic_of
 from zteleop.errors import BusError, ConfigError
+from zteleop.machine import signals
 from zteleop.messages import Beat, Message, Refusals, Vehicle
 
 T = TypeVar("T")
@@ -115,7 +116,7 @@ class Membership:
                 if not self._closed.is_set():  # else there is nothing left to look at
                     raise
 
-        threading.Thread(target=run, daemon=True).start()
+        signals.start(threading.Thread(target=run, daemon=True))
 
     def until(self, look: Callable[[], T], seconds: float) -> T:
         """Spin until `look` finds something, at most for some seconds; return what it found last."""

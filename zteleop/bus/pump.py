@@ -7,6 +7,7 @@ from typing import Any
 
 from zteleop.bus.loop import Loop
 from zteleop.bus.session import Inbox, Sample
+from zteleop.machine import signals
 
 
 class Pump:
@@ -30,7 +31,7 @@ class Pump:
         self._emptied.acquire()
         self._closed = False
         self._thread = threading.Thread(target=self._run, name="inbox", daemon=True)
-        self._thread.start()
+        signals.start(self._thread)
 
     def close(self) -> None:
         """End the thread; the session must be closed first."""

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple, Self
 from zteleop.control.proof import NEVER
 from zteleop.errors import DeviceError
 from zteleop.inputs.gamepad_map import FORGET, Moved
+from zteleop.machine import signals
 
 LOOK_EVERY = 0.02
 """s between two looks: SDL has no file that turns readable"""
@@ -138,7 +139,7 @@ class Ticks:
         self._heard = threading.Event()
         self._ended = threading.Event()
         self._thread = threading.Thread(target=self._tick, args=(period,), name="sdl ticks", daemon=True)
-        self._thread.start()
+        signals.start(self._thread)
 
     def fileno(self) -> int:
         return self._ear

@@ -6,6 +6,8 @@ from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
+from zteleop.machine import signals
+
 LOOK_EVERY = 1.0
 LARGEST = 2**20
 """bytes that are compared"""
@@ -22,7 +24,7 @@ class Changes:
 
     def watch(self, tell: Callable[[str], object]) -> None:
         """Tell of each change from now on, from a thread of its own."""
-        threading.Thread(target=self._run, args=(tell,), name="changes", daemon=True).start()
+        signals.start(threading.Thread(target=self._run, args=(tell,), name="changes", daemon=True))
 
     def _run(self, tell: Callable[[str], object]) -> None:
         while True:

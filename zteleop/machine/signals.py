@@ -63,6 +63,16 @@ def sheltered() -> Iterator[None]:
             _raise(number, None)
 
 
+def start(thread: threading.Thread) -> None:
+    """Start a thread; an ending signal waits until it runs.
+
+    Thread.start waits in a Condition, which has given its lock away for that: what a handler raises before
+    the lock is back is lost in "release unlocked lock".
+    """
+    with sheltered():
+        thread.start()
+
+
 def _raise(number: int, frame: FrameType | None) -> None:
     global _raised, _kept
     if _shelters:

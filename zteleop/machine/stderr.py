@@ -12,6 +12,8 @@ from collections import deque
 from contextlib import suppress
 from queue import SimpleQueue
 
+from zteleop.machine import signals
+
 LINES = 200
 """that may wait; the oldest are lost first"""
 _GLANCE = 0.001
@@ -38,7 +40,7 @@ class LineWriter:
             self._bell.put(None)
         if self._thread is None:
             self._thread = threading.Thread(target=self._write, name="writer", daemon=True)
-            self._thread.start()
+            signals.start(self._thread)
 
     def flush(self, patience: float) -> None:
         """Wait until all is written, at most for some seconds."""

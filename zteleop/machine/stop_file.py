@@ -8,6 +8,7 @@ from pathlib import Path
 
 import msgspec
 
+from zteleop.machine import signals
 from zteleop.messages import Stop
 
 UNREADABLE = 2**53 - 2
@@ -71,7 +72,7 @@ class StopFile:
             return
         self.unkept = ""
         # An SD card may take a second for it; the loop that keeps the robot at rest must not wait.
-        threading.Thread(target=_flush, args=(self.path,), daemon=True).start()
+        signals.start(threading.Thread(target=_flush, args=(self.path,), daemon=True))
 
     def add(self, stop: Stop) -> None:
         """Keep a stop beside those that another process has kept."""
@@ -106,7 +107,7 @@ class StopFile:
             self._warn(f"the stop cannot be released: {self.path}: {error.strerror}; remove it by hand")
             return False
         self._stops, self.unkept = (), ""
-        threading.Thread(target=_flush, args=(self.path.parent,), daemon=True).start()
+        signals.start(threading.Thread(target=_flush, args=(self.path.parent,), daemon=True))
         return True
 
     def _stat(self) -> tuple[int, ...]:

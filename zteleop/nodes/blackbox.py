@@ -14,6 +14,7 @@ from pathlib import Path
 from zteleop.bus import clock
 from zteleop.bus.node import Node
 from zteleop.bus.tap import Tap
+from zteleop.machine import signals
 from zteleop.machine.sidecar import LAST_WORD
 from zteleop.recording import blackbox_file
 from zteleop.recording.blackbox_file import FORMAT, Header, Reason, seconds
@@ -50,7 +51,7 @@ class Writer:
             return
         now, wall = clock.now(), time.time()  # together: they relate all other times
         self._thread = threading.Thread(target=self._run, args=(held, triggers, wall - now), daemon=True)
-        self._thread.start()
+        signals.start(self._thread)
 
     def finish(self) -> None:
         """Wait for the disk, but not for ever."""

@@ -17,7 +17,7 @@ import msgspec
 
 from zteleop.bus import clock
 from zteleop.bus.escape import printable
-from zteleop.machine import realtime
+from zteleop.machine import realtime, signals
 from zteleop.messages import Time
 
 SIZE = 1_000_000
@@ -67,7 +67,7 @@ class JournalFile:
         self._unsynced = False
         self._try(self._open)  # here, so that a wrong folder is said at the start
         self._thread = threading.Thread(target=self._run, name="journal", daemon=True)
-        self._thread.start()
+        signals.start(self._thread)
 
     def put(self, line: Entry) -> None:
         """Leave a line to the thread; never waits."""

@@ -1,5 +1,6 @@
 import signal
 import sys
+import threading
 from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any
@@ -114,3 +115,21 @@ def test_a_signal_in_a_shelter_raises_at_its_end(handlers: Table, monkeypatch: p
     assert reached == ["inner", "outer"]
     with signals.sheltered():
         pass  # it was told once
+
+
+def test_a_signal_that_comes_while_a_thread_starts_is_raised_when_it_runs(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Raised within Thread.start it would be lost in a RuntimeError of a lock that is not held."""
+    begun = threading.Event()
+    thread = threading.Thread(target=begun.set)
+    really = thread.start
+
+    def start_amid_a_signal() -> None:
+        signals._raise(signal.SIGINT, None)
+        really()
+
+    monkeypatch.setattr(thread, "start", start_amid_a_signal)
+    with pytest.raises(KeyboardInterrupt):
+        signals.start(thread)
+    assert begun.wait(5)

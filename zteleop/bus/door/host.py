@@ -36,6 +36,7 @@ from zteleop.bus.session import Outlet, Question, Sample
 from zteleop.bus.zenoh_session import Undeclarable, ZenohSession
 from zteleop.control.allowance import Allowance
 from zteleop.errors import BusError
+from zteleop.machine import signals
 from zteleop.machine.ids import new_id
 
 AT_ONCE, EVERY, EVERY_PROVEN = 500, 0.001, 0.0002
@@ -187,7 +188,7 @@ class Guest:
             if declared := self._declared.pop(ask.id, None):
                 declared.undeclare()
         else:
-            threading.Thread(target=self._look_up, args=(ask,), daemon=True).start()
+            signals.start(threading.Thread(target=self._look_up, args=(ask,), daemon=True))
 
     def _passer(self, identity: int) -> Callable[[Sample], None]:
         """Return what passes samples on; zenoh calls it in threads of its own."""

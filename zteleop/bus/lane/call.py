@@ -10,6 +10,7 @@ from zteleop.bus.lane import places, wire
 from zteleop.bus.lane.places import Place
 from zteleop.bus.lane.wire import Answered, Asked
 from zteleop.bus.settings import SAME_MACHINE, BusSettings
+from zteleop.machine import signals
 from zteleop.messages import Stop
 
 _MOST = 100
@@ -29,7 +30,7 @@ class Call:
                 self._mouths[kind] = socket.socket(kind, socket.SOCK_DGRAM)
                 self._mouths[kind].setblocking(False)
         # A name may take seconds to become an address, and a stop does not wait for it.
-        threading.Thread(target=self._find, args=(wanted,), name="stop lane", daemon=True).start()
+        signals.start(threading.Thread(target=self._find, args=(wanted,), name="stop lane", daemon=True))
 
     def __enter__(self) -> Self:
         return self
