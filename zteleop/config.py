@@ -16,7 +16,7 @@ from zteleop.bus.topics import topic_of
 from zteleop.control.motion.dead_reckoning import OdometrySettings
 from zteleop.control.settings import DriveSettings
 from zteleop.control.stick import Speeds
-from zteleop.drivers import DRIVERS, settings_kind, settings_of
+from zteleop.drivers import DRIVERS, settings_kind, settings_of, tick_us
 from zteleop.drivers.simulated import default_path
 from zteleop.errors import ConfigError
 from zteleop.inputs.gamepad_map import GamepadSettings
@@ -71,6 +71,11 @@ class Config(Struct, frozen=True, forbid_unknown_fields=True):
             chunk(source, "a source")
         for name, settings in {self.driver: {}, **self.drivers}.items():
             settings_of(name, settings)
+
+    @property
+    def tick_us(self) -> float:
+        """Length of a count of its chip, in us."""
+        return tick_us(self.driver, self.drivers.get(self.driver, {}))
 
     def driver_settings(self, driver: str, robot: str) -> dict[str, Any]:
         """Return a driver's settings; a simulated chip lies in a file named after its robot."""

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import msgspec
 import pytest
-from processes import Terminal
 from rig import NEUTRAL, Process, Rig, until
 
 from zteleop.control.settings import DONKEYCAR
@@ -23,6 +22,8 @@ REALLY = unknown(DONKEYCAR, SEED)
 UP, DOWN, RIGHT, LEFT = ("\x1b[A", "\x1b[B", "\x1b[C", "\x1b[D")
 ENTER = "\r"
 STEERING, THROTTLE = 0, 1
+KEYS = {STEERING: (LEFT, RIGHT), THROTTLE: (UP, DOWN)}
+"""that raise, and lower, the ticks of each"""
 
 
 @pytest.fixture
@@ -36,35 +37,36 @@ def where(rig: Rig) -> list[str]:
     return ["--robot", rig.robot, "--no-multicast-scouting", "--listen", rig.endpoint]
 
 
-def calibrate(rig: Rig, *options: str) -> Terminal:
-    """Sit down before the first question, with a robot that takes commands."""
-    screen = rig.terminal("calibrate", *where(rig), *options, columns=100, rows=30)
-    screen.shows("1 of 7", " idle")
-    return screen
+class Sitting:
+    """Somebody who sits before the questions: he presses keys until the chip is where he wants it."""
 
+    def __init__(self, rig: Rig, *command: str) -> None:
+        self.rig = rig
+        self.screen = rig.terminal(*(command or ("calibrate",)), *where(rig), columns=100, rows=30)
+        self.screen.shows("1 of 7", " idle")
+        self.neutral = [*NEUTRAL]
 
-def turn(rig: Rig, screen: Terminal, channel: int, ticks: int, keys: tuple[str, str]) -> None:
-    """Press a key until the chip is there: a robot puts out what is asked for, or says why not."""
-    moved = ticks - NEUTRAL_NOW[channel]
-    screen.type(keys[0 if moved > 0 else 1] * abs(moved))
-    until(lambda: rig.ticks[channel] == ticks, f"{ticks} at the chip, not {rig.ticks}")
-    screen.shows("throttle {1}, steering {0}".format(*rig.ticks))
+    def turn(self, channel: int, ticks: int) -> None:
+        """Turn to these ticks: a robot puts out what is asked for, or says why not."""
+        up, down = KEYS[channel]
+        moved = ticks - self.neutral[channel]
+        self.screen.type((up if moved > 0 else down) * abs(moved))
+        self.shows(channel, ticks)
 
+    def shows(self, channel: int, ticks: int) -> None:
+        until(lambda: self.rig.ticks[channel] == ticks, f"{ticks} at the chip, not {self.rig.ticks}")
+        self.screen.shows("throttle {1}, steering {0}".format(*self.rig.ticks))
 
-NEUTRAL_NOW = [*NEUTRAL]
+    def reverse(self, ticks: int, below: int) -> None:
+        """Do what the screen says of an ESC that brakes first: below neutral once, space, and then again."""
+        self.turn(THROTTLE, below)
+        self.screen.type(" ")
+        self.shows(THROTTLE, self.neutral[THROTTLE])
+        self.turn(THROTTLE, ticks)
 
-
-def brake(rig: Rig, screen: Terminal, starts: int) -> None:
-    """Do what the screen says of an ESC that brakes first: below neutral once, space, and then again."""
-    turn(rig, screen, THROTTLE, starts - 10, (UP, DOWN))
-    screen.type(" ")
-    until(lambda: rig.ticks[THROTTLE] == NEUTRAL_NOW[THROTTLE], "neutral")
-    screen.shows("throttle {1}, steering {0}".format(*rig.ticks))
-
-
-def answered(screen: Terminal, number: int) -> None:
-    screen.type(ENTER)
-    screen.shows(f"{number + 1} of 7", " idle")
+    def answers(self, number: int) -> None:
+        self.screen.type(ENTER)
+        self.screen.shows(f"{number + 1} of 7", " idle")
 
 
 def ticks_of(pulse_us: float) -> int:
@@ -78,42 +80,35 @@ def test_whoever_follows_the_page_drives_a_circle_with_a_car_that_nobody_knew(ri
     assert rig.result(*INIT).returncode == 0
     rig.set(f'drivers.simulated.path = "{rig.chip}"')
     sim = rig.join(*SIM)
-    screen = rig.terminal(*CALIBRATE, *where(rig), columns=100, rows=30)
-    screen.shows("1 of 7", " idle")
-    pedal, wheel = (UP, DOWN), (LEFT, RIGHT)
+    sitting = Sitting(rig, *CALIBRATE)
     begins = REALLY.settings.esc_deadband_us
-    starts = (
-        int((throttle.neutral_us + begins) / TICK) + 1,
-        -int((begins - throttle.neutral_us) // TICK) - 1,
-    )
-    NEUTRAL_NOW[:] = NEUTRAL
-    turn(rig, screen, THROTTLE, starts[0] - 1, pedal)
-    screen.type(UP)
+    forward = int((throttle.neutral_us + begins) / TICK) + 1
+    backward = -int((begins - throttle.neutral_us) // TICK) - 1
+    sitting.turn(THROTTLE, forward - 1)
+    sitting.screen.type(UP)
     sim.says("and turn at 0.")  # one tick less did not turn them
-    answered(screen, 1)
-    brake(rig, screen, starts[1])
-    turn(rig, screen, THROTTLE, starts[1], pedal)
+    sitting.answers(1)
+    sitting.reverse(backward, backward - 10)
     sim.says("and turn at -0.")
-    screen.type(ENTER)
-    screen.shows("3 of 7", "forward starts", " idle")
-    NEUTRAL_NOW[THROTTLE] = round(sum(starts) / 2)
-    until(lambda: abs((rig.ticks[THROTTLE] or 0) - NEUTRAL_NOW[THROTTLE]) <= 1, "the motor's own neutral")
-    NEUTRAL_NOW[THROTTLE] = rig.ticks[THROTTLE] or 0
-    turn(rig, screen, STEERING, ticks_of(steering.neutral_us), wheel)
-    answered(screen, 3)
-    turn(rig, screen, STEERING, ticks_of(steering.max_us), wheel)
+    sitting.screen.type(ENTER)
+    sitting.screen.shows("3 of 7", "forward starts", " idle")
+    middle = (forward + backward) / 2
+    until(lambda: abs((rig.ticks[THROTTLE] or 0) - middle) <= 1, "the motor's own neutral")
+    sitting.neutral[THROTTLE] = rig.ticks[THROTTLE] or 0
+    sitting.turn(STEERING, ticks_of(steering.neutral_us))
+    sitting.answers(3)
+    sitting.turn(STEERING, ticks_of(steering.max_us))
     sim.says("deg to the left")
-    answered(screen, 4)
-    turn(rig, screen, STEERING, ticks_of(steering.min_us), wheel)
+    sitting.answers(4)
+    sitting.turn(STEERING, ticks_of(steering.min_us))
     sim.says("deg to the right")
-    answered(screen, 5)
-    turn(rig, screen, THROTTLE, ticks_of(throttle.max_us), pedal)
-    answered(screen, 6)
-    brake(rig, screen, starts[1])
-    turn(rig, screen, THROTTLE, ticks_of(throttle.min_us), pedal)
-    screen.type(ENTER)
-    assert screen.ends() == 0
-    assert "config.toml is written" in screen.output.decode()
+    sitting.answers(5)
+    sitting.turn(THROTTLE, ticks_of(throttle.max_us))
+    sitting.answers(6)
+    sitting.reverse(ticks_of(throttle.min_us), backward - 10)
+    sitting.screen.type(ENTER)
+    assert sitting.screen.ends() == 0
+    assert "config.toml is written" in sitting.screen.output.decode()
     found = msgspec.toml.decode((rig.folder / "config.toml").read_bytes())["drive"]["servos"]
     for name, servo in REALLY.servos.items():
         for field in ("min_us", "neutral_us", "max_us"):
@@ -127,10 +122,10 @@ def test_whoever_follows_the_page_drives_a_circle_with_a_car_that_nobody_knew(ri
 
 def test_what_is_not_finished_is_not_written(rig: Rig) -> None:
     before = (rig.folder / "config.toml").read_text()
-    screen = calibrate(rig)
-    NEUTRAL_NOW[:] = NEUTRAL
-    turn(rig, screen, THROTTLE, 380, (UP, DOWN))
-    answered(screen, 1)
+    sitting = Sitting(rig)
+    screen = sitting.screen
+    sitting.turn(THROTTLE, 380)
+    sitting.answers(1)
     screen.type("q")
     assert screen.ends() == 1
     assert "left before the end: config.toml is as it was" in screen.output.decode()
@@ -140,7 +135,7 @@ def test_what_is_not_finished_is_not_written(rig: Rig) -> None:
 
 
 def test_only_what_is_asked_for_turns(rig: Rig) -> None:
-    screen = calibrate(rig)
+    screen = Sitting(rig).screen
     screen.type(LEFT + RIGHT + LEFT + UP)
     until(lambda: rig.ticks == (NEUTRAL[0], NEUTRAL[1] + 1), "one tick of throttle")
     screen.type("\x1b[5~")
@@ -157,7 +152,7 @@ def test_only_what_is_asked_for_turns(rig: Rig) -> None:
 
 
 def test_a_stop_from_anywhere_stops_it_and_what_is_stopped_is_no_answer(rig: Rig) -> None:
-    screen = calibrate(rig)
+    screen = Sitting(rig).screen
     screen.type(UP * 5)
     until(lambda: rig.ticks[THROTTLE] == NEUTRAL[THROTTLE] + 5, "five ticks")
     assert rig.result("stop", *rig.bus_options()).returncode == 0
@@ -171,7 +166,7 @@ def test_a_stop_from_anywhere_stops_it_and_what_is_stopped_is_no_answer(rig: Rig
 
 def test_a_program_that_was_left_running_turns_no_motor(rig: Rig) -> None:
     """Its twist would be full throttle of a servo that may go as far as any."""
-    screen = calibrate(rig)
+    screen = Sitting(rig).screen
     program = rig.join("pub", "cmd_vel", "Twist", "{linear: {x: 3.0}}", "-r", "10")
     screen.shows("program")
     program.says("publishing #20")
@@ -180,7 +175,7 @@ def test_a_program_that_was_left_running_turns_no_motor(rig: Rig) -> None:
 
 
 def test_a_calibration_that_is_killed_leaves_neutral_and_nobody_behind(rig: Rig) -> None:
-    screen = calibrate(rig)
+    screen = Sitting(rig).screen
     screen.type(UP * 5)
     until(lambda: rig.ticks[THROTTLE] == NEUTRAL[THROTTLE] + 5, "five ticks")
     screen.process.kill()

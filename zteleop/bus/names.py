@@ -58,7 +58,7 @@ def resolve(text: str, robot: str | None) -> Name:
     parts = text.removeprefix("/").removeprefix("robot/").rstrip("/").split("/")
     of_ros = text.startswith("/") and len(parts) == 1 and parts[0] not in ("", robot)  # /odom, as ROS says it
     absolute = text.startswith(("/", "robot/")) and not of_ros
-    if not absolute and (len(parts) == 1 or _known(parts[0]) or "/".join(parts) in TOPICS):
+    if not absolute and (len(parts) == 1 or _begins_topic(parts)):
         if robot is None:
             raise ConfigError(
                 f"topic {text!r} names no robot; say ROBOT/{'/'.join(parts)}, --robot ROBOT "
@@ -78,7 +78,7 @@ def resolve(text: str, robot: str | None) -> Name:
 
 
 def _begins_topic(parts: list[str]) -> bool:
-    """Say whether what stands behind a robot's name is one of its topics."""
+    """Say whether these parts are, or begin with, a topic that every robot may have."""
     return _known(parts[0]) or "/".join(parts) in TOPICS
 
 

@@ -13,7 +13,7 @@ from zteleop.bus.node import Node
 from zteleop.cli import _options
 from zteleop.cli._driving import drive_at_terminal
 from zteleop.cli._scratch import scratch
-from zteleop.cli._settings_file import PULSES, SettingsFile, of_servos, tick_of
+from zteleop.cli._settings_file import SettingsFile, of_servos
 from zteleop.config import Config
 from zteleop.control.measuring import STEPS, Measuring
 from zteleop.control.servo import Servo
@@ -21,8 +21,8 @@ from zteleop.drivers import open_driver
 from zteleop.errors import BusError, ConfigError
 from zteleop.inputs.levers import Steps
 from zteleop.inputs.tuner import Tuner
-from zteleop.machine.leash import Process, leashed
-from zteleop.screen.dashboard import Dashboard
+from zteleop.machine.leash import Process, last_words, leashed
+from zteleop.screen.dashboard import Dashboard, Task
 from zteleop.screen.view import View
 from zteleop.terminal.typed import Typed, open_terminal
 
@@ -47,15 +47,17 @@ def find_out(file: SettingsFile, settings: Config, robot: str) -> dict[str, Serv
     """
     chip = settings.driver_settings(settings.driver, robot)
     open_driver(settings.driver, chip).close()  # which fails where somebody else drives it
-    measuring = Measuring(settings.drive.servos, tick_of(settings))
-    while measuring.number < len(STEPS):
+    measuring = Measuring(settings.drive.servos, settings.tick_us)
+    while True:
         with running(file, settings, robot, measuring) as node:
             tuner = Tuner(Typed(open_terminal()), measuring)
             known = Dashboard(robot, "step", settings.speeds, bound=tuner.bound, steps=TICK)
-            drive_at_terminal(node, settings, tuner, SOURCE, known, watch=seen_by(tuner), task=tuner.task)
+            drive_at_terminal(
+                node, settings, tuner, SOURCE, known, watch=seen_by(tuner), task=asked_by(tuner)
+            )
         if tuner.gave_up:
             return None
-        if not measuring.number < len(STEPS):
+        if measuring.number == len(STEPS):
             break
         print(KNOWN, file=sys.stderr, flush=True)
         measuring.go_on()
@@ -72,6 +74,11 @@ def seen_by(tuner: Tuner) -> Callable[[View], None]:
         tuner.see(view.status.pulses if view.status and not view.silence else ())
 
     return see
+
+
+def asked_by(tuner: Tuner) -> Callable[[], Task]:
+    """Return what tells a screen what is asked for."""
+    return lambda: Task(tuner.task(), unmeasured=True)
 
 
 @contextmanager
@@ -93,7 +100,7 @@ def wide(file: SettingsFile, settings: Config, robot: str, measuring: Measuring)
     """Return the text of a config that is the robot's, but for how far its servos turn."""
     bus = settings.bus
     changes: dict[tuple[str, ...], Any] = {
-        **of_servos(measuring.wide(), (*PULSES, "dead_zone_us")),
+        **of_servos(measuring.wide()),
         ("drive", "mixer", "kind"): settings.drive.mixer.kind,
         ("drive", "mixer", "max_speed"): SLOW,
         **{("bus", name): getattr(bus, name) for name in ("mode", "connect", "listen", "multicast")},
@@ -114,5 +121,4 @@ def await_ready(node: Node, process: Process, log: Path) -> None:
         if READY in log.read_text() and node.membership.heard().ready:
             return
         node.spin(0.01)
-    words = log.read_text().strip().splitlines()
-    raise BusError(f"the robot did not start: {words[-1] if words else 'it said nothing'}")
+    raise BusError(f"the robot did not start: {last_words(log)}")

@@ -7,6 +7,7 @@ from typing import Any
 from msgspec.structs import replace
 
 from zteleop.cli._settings_file import PULSES, of_servos
+from zteleop.cli._text import read_text
 from zteleop.config import Config
 from zteleop.control.servo import Servo
 from zteleop.drivers.pca9685 import Pca9685Settings
@@ -15,8 +16,6 @@ from zteleop.errors import ConfigError
 from zteleop.text import donkeycar
 from zteleop.text.donkeycar import Donkeycar, Output
 
-LONGEST = 2**20
-"""bytes of a Donkeycar file"""
 DONKEY_TICK_US = tick_us(prescale(donkeycar.FREQUENCY_HZ))
 """of its chip, as its driver sets it"""
 
@@ -28,7 +27,7 @@ def export(settings: Config, path: Path, dry_run: bool) -> None:
         raise ConfigError(
             f"Donkeycar knows cars with steering and throttle; this one has {', '.join(sorted(servos))}"
         )
-    chip = Pca9685Settings(**settings.drivers.get("pca9685", {}))
+    chip = chip_of(settings)
     car = Donkeycar(in_counts(servos["steering"]), in_counts(servos["throttle"]), chip.bus, chip.address)
     text = donkeycar.written(car)
     if dry_run:
@@ -52,20 +51,25 @@ def in_counts(servo: Servo) -> Output:
 def imported(settings: Config, path: Path) -> Iterator[tuple[tuple[str, ...], Any]]:
     """Yield what a Donkeycar file changes in settings."""
     files = donkey_files(path)
-    car, where = donkeycar.read((str(file), text_of(file)) for file in files), " and ".join(map(str, files))
+    car, where = donkeycar.read((str(file), read_text(file)) for file in files), " and ".join(map(str, files))
     servos = settings.drive.servos
     if not {"steering", "throttle"} <= servos.keys():
         raise ConfigError(
             f"a Donkeycar has steering and throttle; this vehicle has {', '.join(sorted(servos))}"
         )
-    fields = (*PULSES, "dead_zone_us")
-    yield from of_servos({"throttle": taken(servos["throttle"], car.throttle, where)}, fields).items()
-    yield from of_servos({"steering": taken(servos["steering"], car.steering, where)}).items()
+    taken_over = {"throttle": car.throttle, "steering": car.steering}
+    yield from of_servos(
+        {name: taken(servos[name], pulses, where) for name, pulses in taken_over.items()}
+    ).items()
+    chip = chip_of(settings)
     for name, value in (("bus", car.bus), ("address", car.address)):
-        if value is not None and value != getattr(
-            Pca9685Settings(**settings.drivers.get("pca9685", {})), name
-        ):
+        if value not in (None, getattr(chip, name)):
             yield ("drivers", "pca9685", name), value
+
+
+def chip_of(settings: Config) -> Pca9685Settings:
+    """Return the settings of the chip that a Donkeycar has."""
+    return Pca9685Settings(**settings.drivers.get("pca9685", {}))
 
 
 def taken(servo: Servo, output: Output, where: str) -> Servo:
@@ -86,16 +90,3 @@ def donkey_files(path: Path) -> list[Path]:
         path = path / "config.py"
     beside = path.with_name("myconfig.py")
     return [path, beside] if path.name == "config.py" and beside.exists() else [path]
-
-
-def text_of(path: Path) -> str:
-    try:
-        with path.open("rb") as file:
-            text = file.read(LONGEST + 1)
-        if len(text) > LONGEST:
-            raise ConfigError(f"{path}: expected at most {LONGEST} bytes of settings, found more")
-        return text.decode()
-    except OSError as error:
-        raise ConfigError(f"cannot read {path}: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise ConfigError(f"{path}: expected a Donkeycar config in Python, found no text") from None

@@ -1,6 +1,6 @@
 """One operator at a terminal who drives with a device: the screen, and the lane of a stop."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from typing import Protocol, Self
 
 from zteleop.bus import clock
@@ -11,13 +11,12 @@ from zteleop.cli._floor import Floor
 from zteleop.cli._painter import HEARD_WITHIN, Painter, Shown
 from zteleop.config import Config
 from zteleop.control.report import to_vehicle
-from zteleop.drivers import tick_us
 from zteleop.inputs import Input
 from zteleop.machine.guardian import guarded
 from zteleop.messages import Vehicle
 from zteleop.nodes.switches import Switches
 from zteleop.nodes.teleop import Teleop
-from zteleop.screen.dashboard import Dashboard
+from zteleop.screen.dashboard import Dashboard, Task
 from zteleop.screen.view import View
 
 KILLED = "\r\nzteleop was killed; this terminal is as it was, and Enter brings its prompt\r\n"
@@ -51,11 +50,11 @@ def drive_at_terminal(
     known: Dashboard,
     meet: Callable[[Vehicle], None] = lambda vehicle: None,
     watch: Callable[[View], None] = lambda view: None,
-    task: Callable[[], Sequence[tuple[str, str]]] = tuple,
+    task: Callable[[], Task] = Task,
 ) -> None:
     """Show the screen and drive until the operator has enough; `meet` hears once which vehicle it is.
 
-    What is seen goes to `watch` as well; `task` says what there is to do, as a `Dashboard` shows it.
+    What is seen goes to `watch` as well; `task` says what there is to do.
     """
     node.log.show = lambda line: None  # nothing prints over the screen: it shows the log itself
     terminal, switches = device.terminal, Switches(node)
@@ -96,6 +95,4 @@ def find_vehicle(node: Node, settings: Config) -> Vehicle:
         if vehicle := node.membership.heard().vehicle:
             return vehicle
         node.spin(0.01)
-    return to_vehicle(
-        settings.drive, tick_us(settings.driver, settings.driver_settings(settings.driver, "any"))
-    )
+    return to_vehicle(settings.drive, settings.tick_us)

@@ -66,7 +66,7 @@ def load(options: argparse.Namespace, *, listens: bool = False) -> Config:
 
 def load_anyhow(options: argparse.Namespace) -> Config:
     """Do the same, and where the file is not right go on with what can be read of it, and say so."""
-    return with_typed(options, beside_robot(salvaged(options)))
+    return with_typed(options, beside_robot(salvaged(options)[0]))
 
 
 def beside_robot(settings: Config) -> Config:
@@ -79,18 +79,17 @@ def beside_robot(settings: Config) -> Config:
     return msgspec.structs.replace(settings, bus=bus)
 
 
-def salvaged(options: argparse.Namespace) -> Config:
-    """Return the settings of the file meant, as far as they can be read; a stop must not fail for a typo."""
+def salvaged(options: argparse.Namespace) -> tuple[Config, bool]:
+    """Return the settings of the file meant, as far as they can be read, and whether that is all of them.
+
+    What is wrong is said; a stop must not fail for a typo.
+    """
     settings, wrong = salvage(options.config)
     if wrong:
-        rest = (
-            "what is built in"
-            if wrong.startswith("cannot read")
-            else "the rest of that file, and what is built in"
-        )
-        words = f"zteleop: warning: {wrong}; goes on with {rest}"
+        rest = "" if wrong.startswith("cannot read") else "the rest of that file, and "
+        words = f"zteleop: warning: {wrong}; goes on with {rest}what is built in"
         print(printable(words), file=sys.stderr)
-    return settings
+    return settings, not wrong
 
 
 def with_typed(options: argparse.Namespace, settings: Config) -> Config:

@@ -8,6 +8,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+DEMO = "zteleop-demo-"
+"""how the folder of a demo begins, in which its robot keeps what others keep for longer"""
 ALIVE = "alive"
 """a file that is locked while somebody uses the folder"""
 MADE_WITHIN = 60.0

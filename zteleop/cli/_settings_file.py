@@ -3,7 +3,7 @@
 import os
 import stat
 import tempfile
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from difflib import unified_diff
 from pathlib import Path
 from typing import Any
@@ -11,7 +11,6 @@ from typing import Any
 from zteleop import config
 from zteleop.config import Config
 from zteleop.control.servo import Servo
-from zteleop.drivers import tick_us
 from zteleop.errors import ConfigError
 
 Changes = Mapping[tuple[str, ...], Any]
@@ -64,7 +63,7 @@ class SettingsFile:
 
     def _told(self, changes: Changes) -> Iterator[tuple[tuple[str, ...], tuple[int, int]]]:
         """Yield for each pulse how many ticks it was, and is to be."""
-        tick = tick_of(self.settings)
+        tick = self.settings.tick_us
         for path, value in changes.items():
             match path:
                 case "drive", "servos", name, field if field in PULSES:
@@ -84,17 +83,12 @@ def editor() -> Callable[..., str]:
     return edited
 
 
-def tick_of(settings: Config) -> float:
-    """Return the length of a count of the chip, in us."""
-    return tick_us(settings.driver, settings.drivers.get(settings.driver, {}))
-
-
-def of_servos(servos: Mapping[str, Servo], fields: Iterable[str] = PULSES) -> dict[tuple[str, ...], Any]:
+def of_servos(servos: Mapping[str, Servo]) -> dict[tuple[str, ...], Any]:
     """Return what a file must say of these servos, all of it: what it says replaces those built in."""
     return {
         ("drive", "servos", name, field): rounded(getattr(servo, field))
         for name, servo in servos.items()
-        for field in ("channel", *fields)
+        for field in ("channel", *PULSES, *(() if name == "steering" else ("dead_zone_us",)))
     }
 
 
@@ -105,10 +99,10 @@ def rounded(value: Any) -> Any:
 
 def pulses_told(before: Config, after: Config) -> list[str]:
     """Return a line for each servo: its pulses in ticks, and those before."""
-    tick, lines = tick_of(after), []
+    tick, lines = after.tick_us, []
     for name, servo in after.drive.servos.items():
         was, old = before.drive.servos.get(name), ""
-        if was is not None and (ticks := in_ticks(was, tick_of(before))) != in_ticks(servo, tick):
+        if was is not None and (ticks := in_ticks(was, before.tick_us)) != in_ticks(servo, tick):
             old = f", before {ticks}"
         lines.append(f"{name:8} on channel {servo.channel}: {in_ticks(servo, tick)} ticks{old}")
     return lines

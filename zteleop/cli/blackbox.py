@@ -12,6 +12,7 @@ import msgspec
 from zteleop import config
 from zteleop.bus.escape import printable
 from zteleop.bus.names import robot_name
+from zteleop.cli._scratch import DEMO
 from zteleop.errors import ConfigError, nearest
 from zteleop.recording import blackbox_file
 from zteleop.recording.amounts import SECOND, span
@@ -22,9 +23,6 @@ EXAMPLES = (
     "zteleop blackbox",
     "zteleop blackbox archangel --list",
 )
-
-DEMO = "zteleop-demo-"
-"""how the folder of a demo that runs begins, in which its robot keeps what others keep for longer"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -6,7 +6,7 @@ from zteleop.cli import _options
 from zteleop.cli._calibrating import find_out
 from zteleop.cli._consent import ask_consent
 from zteleop.cli._donkeycar import export, imported
-from zteleop.cli._settings_file import PULSES, Changes, SettingsFile, editor, of_servos, pulses_told
+from zteleop.cli._settings_file import Changes, SettingsFile, editor, of_servos, pulses_told
 from zteleop.errors import ConfigError
 from zteleop.terminal.typed import open_terminal
 
@@ -60,12 +60,7 @@ def run(arguments: argparse.Namespace) -> int:
     if found is None:
         print(f"left before the end: {file.path} is as it was")
         return 1
-    fields = (*PULSES, "dead_zone_us")
-    keep(
-        file,
-        of_servos({"throttle": found["throttle"]}, fields) | of_servos({"steering": found["steering"]}),
-        arguments.dry_run,
-    )
+    keep(file, of_servos(found), arguments.dry_run)
     return 0
 
 

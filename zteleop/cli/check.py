@@ -9,7 +9,7 @@ from zteleop.cli.up import programs_of
 from zteleop.config import Config
 from zteleop.control.calibration import check_pulses
 from zteleop.control.report import to_vehicle
-from zteleop.drivers import DRIVERS, settings_of, tick_us
+from zteleop.drivers import DRIVERS, settings_of
 from zteleop.drivers.registers import longest_us
 from zteleop.text.paths import leaves
 
@@ -27,7 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> None:
     path = arguments.file or arguments.config
     settings = config.load(path)
-    check_pulses(settings.drive.servos, longest_us(_tick_us(settings)))
+    check_pulses(settings.drive.servos, longest_us(settings.tick_us))
     path = path or config.found()
     if path:
         programs_of(settings.launch, path)
@@ -37,7 +37,7 @@ def run(arguments: argparse.Namespace) -> None:
 
 def _summary(settings: Config) -> str:
     """Say in a few lines what a robot with these settings is."""
-    vehicle = to_vehicle(settings.drive, _tick_us(settings))
+    vehicle = to_vehicle(settings.drive, settings.tick_us)
     lines = [
         f"robot    {settings.robot or 'a name of its own'}",
         f"driver   {settings.driver}",
@@ -60,10 +60,6 @@ def _summary(settings: Config) -> str:
 def _shown(value: object) -> object:
     """Return a value as the file spells it, but for the quotes."""
     return str(value).lower() if isinstance(value, bool) else value
-
-
-def _tick_us(settings: Config) -> float:
-    return tick_us(settings.driver, settings.drivers.get(settings.driver, {}))
 
 
 def _idle_limits(settings: Config) -> Iterator[str]:

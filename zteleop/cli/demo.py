@@ -14,17 +14,17 @@ from zteleop.bus.node import Node
 from zteleop.bus.settings import SAME_MACHINE_DOOR, BusSettings
 from zteleop.cli import _scenes
 from zteleop.cli._driving import find_vehicle
-from zteleop.cli._scratch import scratch
-from zteleop.cli.blackbox import DEMO
+from zteleop.cli._scratch import DEMO, scratch
 from zteleop.cli.keyboard import drive_with_keys
 from zteleop.config import Config
 from zteleop.control.vehicles import VEHICLES
 from zteleop.errors import BusError
 from zteleop.inputs import Drive
 from zteleop.inputs.script import Script
-from zteleop.machine.leash import Process, leashed
+from zteleop.machine.leash import Process, last_words, leashed
 from zteleop.messages import Odometry
 from zteleop.nodes.teleop import Teleop
+from zteleop.screen.dashboard import Task
 from zteleop.screen.floor import marks
 from zteleop.screen.view import View
 from zteleop.sim.plan import plan
@@ -97,10 +97,10 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def ended(children: Sequence[Process]) -> list[tuple[str, str]]:
+def ended(children: Sequence[Process]) -> Task:
     """Return, where a part of the demo is gone, which, and what to do."""
     gone = [name for name, child in zip(PARTS, children, strict=True) if child.poll() is not None]
-    return [("demo", f"its {' and its '.join(gone)} ended: q, and start another")] if gone else []
+    return Task([("demo", f"its {' and its '.join(gone)} ended: q, and start another")] if gone else ())
 
 
 def drive_figure(node: Node) -> int:
@@ -187,8 +187,7 @@ def await_robot(node: Node, children: Sequence[Process], log: Path) -> None:
         if node.membership.heard().ready and odoms.newest():
             return
         node.spin(0.01)
-    words = log.read_text().strip().splitlines()
-    raise BusError(f"the simulated robot did not start: {words[-1] if words else 'it said nothing'}")
+    raise BusError(f"the simulated robot did not start: {last_words(log)}")
 
 
 def _free_port() -> int:

@@ -11,7 +11,7 @@ from zteleop.inputs import Drive
 from zteleop.inputs.keyboard import Keyboard
 from zteleop.inputs.keymap import HELD, KEYMAPS, describe, keymap
 from zteleop.messages import Vehicle
-from zteleop.screen.dashboard import Dashboard
+from zteleop.screen.dashboard import Dashboard, Task
 from zteleop.screen.top_view import Mark
 from zteleop.screen.view import View
 from zteleop.terminal.typed import Keys, Typed, open_terminal
@@ -77,7 +77,7 @@ def drive_with_keys(
     floor: Sequence[Mark] = (),
     watch: Callable[[View], None] = lambda view: None,
     typed: Keys | None = None,
-    task: Callable[[], Sequence[tuple[str, str]]] = tuple,
+    task: Callable[[], Task] = Task,
 ) -> Drive:
     """Show the keyboard screen, with what lies on the floor, and drive until the operator has enough.
 

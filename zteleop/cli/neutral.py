@@ -5,7 +5,7 @@ from pathlib import Path
 from zteleop import config
 from zteleop.bus.names import robot_name
 from zteleop.cli import _options
-from zteleop.cli._salvage import salvage, unknown_driver
+from zteleop.cli._salvage import unknown_driver
 from zteleop.config import Config
 from zteleop.control.calibration import Calibration
 from zteleop.drivers import DRIVERS, open_driver
@@ -46,13 +46,12 @@ def _near(path: str) -> str:
 
 def run(arguments: argparse.Namespace) -> None:
     """Write neutral first and ask afterwards: it is never wrong."""
-    settings = _options.salvaged(arguments)
+    settings, is_whole = _options.salvaged(arguments)
     if not arguments.driver and (said := unknown_driver(arguments.config)):
         raise ConfigError(
             f"nothing was written: which chip is meant by driver = {said!r}? {nearest(said, DRIVERS)}; "
             "say --driver NAME"
         )
-    is_whole = not salvage(arguments.config)[1]
     robot = robot_name(arguments.robot or settings.robot or config.own_name())
     name = arguments.driver or settings.driver
     chip = settings.driver_settings(name, robot)

@@ -4,6 +4,7 @@ from pathlib import Path
 from zteleop.bus.escape import printable
 from zteleop.cli import _options
 from zteleop.cli._params import parameters_of
+from zteleop.cli._text import read_text
 from zteleop.errors import BusError, ConfigError, nearest
 from zteleop.text.parameter_text import load, nodes
 
@@ -11,8 +12,6 @@ EXAMPLES = (
     "zteleop param load actuator actuator.yaml",
     "zteleop param load archangel/actuator all.yaml --no-use-wildcard",
 )
-LONGEST = 2**20
-"""bytes of a file"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -25,7 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> None:
-    text = _read(arguments.file)
+    text = read_text(arguments.file)
     with parameters_of(arguments) as node:
         wildcards, leaf = not arguments.no_use_wildcard, node.name.rpartition("/")[2]
         wanted = load(text, node.name, wildcards=wildcards) or load(text, f"/{leaf}", wildcards=wildcards)
@@ -39,16 +38,3 @@ def run(arguments: argparse.Namespace) -> None:
             print(printable(f"Set parameter {parameter.name} successful"))
     if failed:
         raise BusError("Setting parameter failed: " + "; ".join(failed))
-
-
-def _read(path: Path) -> str:
-    try:
-        with path.open("rb") as file:
-            data = file.read(LONGEST + 1)
-        if len(data) > LONGEST:
-            raise ConfigError(f"{path}: expected at most {LONGEST} bytes, found more")
-        return data.decode()
-    except OSError as error:
-        raise ConfigError(f"cannot read {path}: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise ConfigError(f"{path}: expected a text in UTF-8") from None

@@ -36,9 +36,9 @@ EXAMPLES = (
 SETTLE = 0.1
 """s in which others who hear it are found"""
 OBEYED_FOR = SOURCES["program"].silence
-STAYS = OBEYED_FOR - 0.04
-"""s after the last command: who lets go then has ended, and whose silence the robot notices is lost"""
 """s after a last command in which its robot still obeys, unless whoever said it leaves"""
+STAYS = OBEYED_FOR - 0.04
+"""s after it that this stays: who lets go has ended, and whose silence a robot notices is lost"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -33,8 +33,7 @@ def in_dead_zone(vehicle: Vehicle, pulses: Sequence[Pulse]) -> str:
     """Say which channel asks its motor to turn, and by too little; nothing where none does."""
     ticks = {pulse.name: pulse.duty_ticks for pulse in pulses}
     for channel in vehicle.channels:
-        off = abs(ticks.get(channel.name, channel.neutral_ticks) - channel.neutral_ticks)
-        if 0 < off <= channel.dead_ticks:
+        if channel.is_dead(ticks.get(channel.name, channel.neutral_ticks)):
             return f"its {channel.name} is in the motor's dead zone"
     return ""
 

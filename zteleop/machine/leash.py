@@ -5,6 +5,7 @@ import subprocess
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 from typing import IO
 
 ENDS_WITHIN = 3.0
@@ -33,3 +34,9 @@ def leashed(arguments: Sequence[str], log: IO[str], environment: Mapping[str, st
         except subprocess.TimeoutExpired:
             process.kill()
             process.wait()
+
+
+def last_words(log: Path) -> str:
+    """Return the last line that a process has said into a file."""
+    lines = log.read_text().strip().splitlines()
+    return lines[-1] if lines else "it said nothing"

@@ -49,6 +49,10 @@ class Channel(Message):
     dead_ticks: int
     """To either side of neutral, where a motor does not turn yet."""
 
+    def is_dead(self, ticks: int) -> bool:
+        """Say whether these ticks ask a motor to turn, and by too little."""
+        return 0 < abs(ticks - self.neutral_ticks) <= self.dead_ticks
+
 
 class Vehicle(Message):
     """What an input must know of the robot it drives; said five times a second."""

@@ -137,9 +137,10 @@ class Wheels:
         angle = degrees(self._car.steering_angle)
         side = "left" if angle > 0 else "right"
         points = f"{abs(angle):.1f} deg to the {side}" if abs(angle) >= HARDLY else "straight ahead"
-        if points + str(round(self._car.speed, 2)) != self._told:
-            self._told = points + str(round(self._car.speed, 2))
-            self._show(f"its wheels point {points}, and turn at {self._car.speed:.2f} m/s")
+        words = f"its wheels point {points}, and turn at {self._car.speed:.2f} m/s"
+        if words != self._told:
+            self._told = words
+            self._show(words)
 
 
 def furnish(node: Node, vehicle: Body, simulated: Simulated) -> World:

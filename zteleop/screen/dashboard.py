@@ -19,6 +19,15 @@ LABEL = 10
 """Columns that the name of a line takes; fewer in a small window."""
 
 
+class Task(NamedTuple):
+    """What somebody is asked to do."""
+
+    lines: Sequence[tuple[str, str]] = ()
+    """each behind its name, or behind none"""
+    unmeasured: bool = False
+    """what a pulse means is being found out: nothing is known in m/s, nor where the wheels point"""
+
+
 class Dashboard(NamedTuple):
     """Everything shown."""
 
@@ -32,8 +41,7 @@ class Dashboard(NamedTuple):
     steps: Steps = Steps()
     others: str | None = ""
     """which robots could have been meant, where this one is not heard; None while it is too early to say"""
-    task: Sequence[tuple[str, str]] = ()
-    """what somebody is asked to do, each line behind its name, or behind none"""
+    task: Task = Task()
     about: Sequence[tuple[str, str]] = ()
     """what there is to say of the device, by a short name: how sure it is which keys are held"""
     in_vain: str = ""

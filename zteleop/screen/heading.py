@@ -88,11 +88,9 @@ def dead_zone(d: Dashboard) -> list[tuple[str, str]]:
     """Return, while that is so, that the throttle is on but turns no motor."""
     throttle = channel(d.seen.vehicle, "throttle")
     ticks = next((pulse.duty_ticks for pulse in d.pulses if pulse.name == "throttle"), None)
-    if not d.obeyed or throttle is None or ticks is None or ticks == throttle.neutral_ticks:
+    if not d.obeyed or throttle is None or ticks is None or not throttle.is_dead(ticks):
         return []
     least, most = throttle.neutral_ticks - throttle.dead_ticks, throttle.neutral_ticks + throttle.dead_ticks
-    if not least <= ticks <= most:
-        return []
     limited = d.seen.status.slowed if d.seen.status else ""
     rest = f", as {limited}" if limited else ": it does not turn yet"
     words = printable(f"throttle {ticks} is in the motor's dead zone, {least} to {most}{rest}", True)

@@ -30,11 +30,11 @@ def readings(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
 
 def task_lines(d: Dashboard, columns: int) -> list[Line]:
     """Return what there is to do, in whole words: what is asked for stands out, what helps does not."""
-    if not d.task:
+    if not d.task.lines:
         return []
     words = [
         line(1, text, "bold" if name else "dim")
-        for name, said in d.task
+        for name, said in d.task.lines
         for text in wrap(f"{name}: {said}" if name else said, columns)
     ]
     return [*words, line(9)]

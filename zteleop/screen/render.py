@@ -32,7 +32,7 @@ def render(dashboard: Dashboard, columns: int, rows: int, *, unicode: bool, colo
     spare = rows - len(body) - len(bottom)
     middle = [*body, *[[Span("")]] * spare]
     is_heard = dashboard.seen.odom is not None or dashboard.seen.status is not None
-    if is_heard and not dashboard.keys and not dashboard.task:  # in a task nobody knows how it stands
+    if is_heard and not dashboard.keys and not dashboard.task.unmeasured:
         middle = with_picture(dashboard, middle, len(body), columns, unicode)
     return [paint(cut(spans, columns, unicode), color) for spans in [*middle, *bottom]]
 

@@ -16,7 +16,7 @@ def value_lines(d: Dashboard, columns: int, unicode: bool) -> list[Line]:
     """Return the way of a command, from the operator to the ground."""
     allowed = d.status.applied if d.status else None
     out = labelled(1, "out", out_text(d, columns, unicode), columns)
-    if d.task:  # what a pulse means in m/s is not known yet
+    if d.task.unmeasured:
         return [out]
     lines = [asked_line(d, columns), labelled(5, "allowed", twist_text(allowed, columns), columns), out]
     if d.seen.odom is not None:

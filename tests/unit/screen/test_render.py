@@ -8,6 +8,7 @@ from unit.screen.boards import dashboard
 
 from zteleop.control.stick import Speeds
 from zteleop.messages import Channel, DriveStatus, Odometry, Pulse, Pwm, Stop, Twist, Vehicle
+from zteleop.screen.dashboard import Task
 from zteleop.screen.render import Dashboard, render, steering_angle
 from zteleop.screen.view import View
 from zteleop.terminal.cells import width
@@ -253,7 +254,7 @@ TASK = [
 def test_a_task_stands_above_the_values_in_whole_words_and_nothing_pictures_what_nobody_knows(
     car, columns, rows
 ):
-    lines = shown(board(car)._replace(task=TASK), columns, rows)
+    lines = shown(board(car)._replace(task=Task(TASK, unmeasured=True)), columns, rows)
     text = " ".join(" ".join(lines).split())
     assert (
         "3 of 7: left and right turn the steering. Press enter when the wheels point straight ahead." in text
