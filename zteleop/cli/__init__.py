@@ -80,6 +80,7 @@ GROUPS = {
 ELSEWHERE = {
     "action": "robots here have no actions: zteleop list, zteleop service list",
     "bag": "a robot keeps its last minute: zteleop blackbox",
+    "lifecycle": "a node runs from its start to its end: zteleop node list; zteleop up starts what ends",
     "component": "each verb is a process of its own: zteleop up starts several",
     "daemon": "none is needed: each verb asks the bus itself",
     "multicast": "zteleop doctor looks whether others are found",

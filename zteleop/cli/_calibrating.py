@@ -84,7 +84,10 @@ def asked_by(tuner: Tuner) -> Callable[[], Task]:
 @contextmanager
 def running(file: SettingsFile, settings: Config, robot: str, measuring: Measuring) -> Iterator[Node]:
     """Run the actuator of the robot itself, with wide servos, and join the bus beside it."""
-    with ExitStack() as stack:
+    from zteleop.terminal.hush import hushed  # which some systems have not, that are told so elsewhere
+
+    with ExitStack() as stack, ExitStack() as quiet:
+        quiet.enter_context(hushed())  # between two screens keys go on being pressed
         folder = stack.enter_context(scratch("zteleop-calibrate-"))
         log = stack.enter_context((folder / "log").open("w"))
         (folder / "config.toml").write_text(wide(file, settings, robot, measuring), encoding="utf-8")
@@ -93,7 +96,10 @@ def running(file: SettingsFile, settings: Config, robot: str, measuring: Measuri
         beside = _options.beside_robot(replace(settings, robot=robot))
         node = stack.enter_context(_options.join("calibrate", beside))
         await_ready(node, process, Path(log.name))
+        quiet.close()
         yield node
+        with hushed():
+            stack.close()
 
 
 def wide(file: SettingsFile, settings: Config, robot: str, measuring: Measuring) -> str:

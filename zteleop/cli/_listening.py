@@ -76,6 +76,8 @@ class Listening:
         self.loop = Loop(lambda: None)
         self.patient = True
         """Says after a while for whom it waits."""
+        self.told = False
+        """It has said so."""
         self._verb = verb
         self._session = session
         self._deliveries: list[Delivery] = []
@@ -165,6 +167,7 @@ class Listening:
     def _tell(self) -> None:
         for topic in self._topics:
             if topic.heard == NEVER:
+                self.told = True
                 self._say(f"waits for {self.why_silent(topic.name)}")
 
     def _say(self, words: str) -> None:

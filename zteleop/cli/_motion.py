@@ -181,6 +181,6 @@ def went(trail: Trail) -> str:
     is_arc = trail.way > 0.05 and abs(degrees(trail.turned)) >= 20
     radius = trail.radius() if is_arc else None
     bend = f", on a circle of {radius:.2f} m" if radius else ""
-    return (
-        f"went {trail.way:.2f} m and turned {degrees(trail.turned):+.0f} deg in {trail.seconds:.1f} s{bend}"
-    )
+    back = " backwards" if trail.ahead < -trail.way / 2 else ""
+    turn = f"turned {degrees(trail.turned):+.0f} deg"
+    return f"went {trail.way:.2f} m{back} and {turn} in {trail.seconds:.1f} s{bend}"

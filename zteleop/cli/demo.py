@@ -100,7 +100,8 @@ def run(arguments: argparse.Namespace) -> int:
 def ended(children: Sequence[Process]) -> Task:
     """Return, where a part of the demo is gone, which, and what to do."""
     gone = [name for name, child in zip(PARTS, children, strict=True) if child.poll() is not None]
-    return Task([("demo", f"its {' and its '.join(gone)} ended: q, and start another")] if gone else ())
+    lines = [("demo", f"its {' and its '.join(gone)} ended: q, and start another")] if gone else ()
+    return Task(lines, ends="robot" in gone)
 
 
 def drive_figure(node: Node) -> int:

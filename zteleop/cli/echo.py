@@ -77,7 +77,8 @@ def run(arguments: argparse.Namespace) -> None:
         def give_up() -> None:
             if came > shown:
                 raise BusError(f"for {wait:g} s none of what came on {name} was what was asked for")
-            raise BusError(f"for {wait:g} s nothing was said on {ears.why_silent(name)}")
+            silent = name if ears.told and not came else ears.why_silent(name)
+            raise BusError(f"for {wait:g} s nothing was said on {silent}")
 
         def tell() -> None:
             if came and not shown:

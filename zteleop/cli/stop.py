@@ -70,7 +70,7 @@ class Stops:
         """Begin to stop those that are not asked yet."""
         for robot in robots:
             if robot not in self._asked:
-                self._asked[robot] = Stopping(None, person(), robot, self._lane)
+                self._asked[robot] = Stopping(None, person(), robot, self._lane, "at a shell")
                 self._asked[robot].engage(clock.now(), self._why)
 
     def join(self, settings: Config, settle: bool) -> Node:

@@ -48,16 +48,12 @@ def answer(node: Node) -> str:
         dog = dogs.newest() or dog
         return bool(status and why and dog)
 
-    here = ""
     if not node.membership.until(complete, TELL_AFTER) and status is None and dog is None:
         here = presence.here(node.membership.session, node.robot)
         print(printable(f"zteleop why: waits for {node.robot}; {here}"), file=sys.stderr, flush=True)
     node.membership.until(complete, HEARD_WITHIN - TELL_AFTER)
     if status is None and dog is None:
-        end = "" if here.endswith("?") else ";"
-        raise BusError(
-            f"no actuator of {node.robot} is heard within {HEARD_WITHIN:g} s; is it on? {here}{end}{PAST}"
-        )
+        raise BusError(f"no actuator of {node.robot} is heard within {HEARD_WITHIN:g} s; is it on?{PAST}")
     lines = [
         f"{node.robot} is {status.state}: {status.why}" if status else f"{node.robot}: no actuator heard"
     ]

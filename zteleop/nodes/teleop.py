@@ -6,6 +6,7 @@ from zteleop.bus import clock
 from zteleop.bus.lane.call import Call
 from zteleop.bus.node import Node
 from zteleop.bus.topics import TOPICS
+from zteleop.control.proof import called
 from zteleop.control.stick import Stick, neutral_pwm, to_pwm, to_twist
 from zteleop.errors import BusError, ConfigError
 from zteleop.inputs import Input, Wish
@@ -46,7 +47,8 @@ class Teleop:
         self._sight = Sight(node)
         self._twists = node.publisher("cmd_vel", TwistStamped, source=source, wait=False)
         self._pwms = node.publisher("pwm", Pwm, source=source, wait=False)
-        self._stopping = Stopping(node, person(), lane=lane)
+        at = f"at {called(source, self._twists.sender)}"
+        self._stopping = Stopping(node, person(), lane=lane, at=at)
         self._looked = clock.now()
         self._neutrals = 0
         self._stick = Stick()

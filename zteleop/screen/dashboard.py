@@ -26,6 +26,8 @@ class Task(NamedTuple):
     """each behind its name, or behind none"""
     unmeasured: bool = False
     """what a pulse means is being found out: nothing is known in m/s, nor where the wheels point"""
+    ends: bool = False
+    """the robot was this task's own, and is gone for good"""
 
 
 class Dashboard(NamedTuple):

@@ -61,6 +61,8 @@ def reasons(d: Dashboard, unicode: bool) -> list[tuple[str, str]]:
     if d.seen.unmanned:
         return [(printable(d.seen.unmanned.why, unicode), "")]
     if status is None:
+        if d.task.ends:
+            return [(f"robot {robot} is gone", "")]
         others = f" ({printable(d.others, unicode)})" if d.others else ""
         start = f"start `zteleop actuator --robot {robot}`"
         return [(f"no actuator heard on robot {robot}{others}; {start}, or, if it moves, cut its power", "")]

@@ -91,6 +91,9 @@ def test_what_came_of_it_is_told_in_its_own_measures() -> None:
     quarter = arc(0.5, radians(90))
     assert went(quarter) == "went 0.79 m and turned +90 deg in 5.0 s, on a circle of 0.50 m"
     assert went(trail(Pose2D(), Pose2D(0.2))) == "went 0.20 m and turned +0 deg in 0.1 s"
+    assert went(trail(Pose2D(0.2), Pose2D())) == "went 0.20 m backwards and turned +0 deg in 0.1 s"
+    aside = trail(Pose2D(heading=radians(90)), Pose2D(0.0, -0.3, radians(90)))
+    assert went(aside).startswith("went 0.30 m backwards"), "by where it looks, not by the floor"
     spot = [Pose2D(heading=radians(5 * step)) for step in range(10)]
     assert went(trail(*spot)) == "went 0.00 m and turned +45 deg in 0.9 s"
     assert circle.told(quarter, 0.6).startswith("a radius of 0.50 m, as odometry saw it; 0.60 m were meant")

@@ -235,7 +235,7 @@ def test_a_release_of_a_robot_that_is_not_heard_is_an_error(typed: Type) -> None
 def test_the_first_word_leaves_before_anything_is_waited_for(clock: Clock) -> None:
     node, lane = Robot(clock, None), Lane()
     order: list[str] = []
-    lane.say = lambda robot, said: order.append(f"lane {robot}")
+    whys: list[str] = []
     node.publisher = lambda topic, types: SimpleNamespace(
         matched=False, publish=lambda said: order.append(f"said {topic}")
     )
@@ -246,9 +246,11 @@ def test_the_first_word_leaves_before_anything_is_waited_for(clock: Clock) -> No
         raise BusError("enough")
 
     node.membership.until = until
+    lane.say = lambda robot, said: order.append(f"lane {robot}") or whys.append(said.why)
     stops = verb.Stops(lane, "")
     stops.engage(["a", "b"])
     assert order == ["lane a", "lane b"]
+    assert whys == ["at a shell"] * 2, "where nobody says why, it is told which of somebody's ways it was"
     with pytest.raises(BusError, match="enough"):
         stops.finish(node)
     said = ["lane a", "said /a/stop", "lane b", "said /b/stop"]

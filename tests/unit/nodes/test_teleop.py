@@ -341,7 +341,7 @@ def test_a_stop_is_passed_on_once_repeated_and_lets_go(desk: Desk, clock: Clock)
     desk.device.wish = Wish.STOP
     desk.tick()
     stop = desk.stops.messages[0]
-    assert (stop.engaged, stop.why) == (True, "")
+    assert (stop.engaged, stop.why) == (True, "at keyboard 0001"), "one name for one sender everywhere"
     assert "@" in stop.by
     assert desk.device.wish is None
     assert desk.device.resets == [clock.time]

@@ -4,6 +4,7 @@ from unit.screen.boards import dashboard, pulses, status, texts
 from zteleop.control.gate import Refusal
 from zteleop.control.stop import stopped_by
 from zteleop.messages import Pwm, Stop, Twist
+from zteleop.screen.dashboard import Task
 from zteleop.screen.heading import heading
 from zteleop.screen.readings import readings
 from zteleop.screen.view import Unmanned
@@ -46,6 +47,11 @@ def test_without_an_actuator_it_says_what_to_do():
         "no actuator heard on robot archangel; start `zteleop actuator --robot archangel`, or, if it moves"
     )
     assert words in f"{shown[1]} {shown[2]}"
+
+
+def test_a_robot_that_was_this_tasks_own_is_not_to_be_started_by_anybody():
+    gone = dashboard("step", robot="demo")._replace(task=Task([("demo", "its robot ended")], ends=True))
+    assert " ".join(texts(heading(gone, 80, True))[1:]).strip() == "robot demo is gone"
 
 
 def test_without_an_actuator_it_says_which_robots_could_have_been_meant():

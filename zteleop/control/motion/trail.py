@@ -1,6 +1,6 @@
 """What a motion came to, as odometry saw it: the way, the turn, the radius, the end."""
 
-from math import remainder, tau
+from math import cos, remainder, sin, tau
 
 from zteleop.control.motion.arc import fit_circle
 from zteleop.control.motion.pose import Pose2D
@@ -22,6 +22,8 @@ class Trail:
         """The last pose noted, its turn, when it was, and when the first move began."""
         self.way = 0.0
         """m that base_link moved"""
+        self.ahead = 0.0
+        """m of it that it moved to the front, less what it moved to the back"""
 
     def __bool__(self) -> bool:
         return len(self._poses) > 1
@@ -32,6 +34,8 @@ class Trail:
         if self._poses:
             _, before = self._poses[-1]
             self.way += before.distance(pose.x, pose.y)
+            x, y = pose.x - before.x, pose.y - before.y
+            self.ahead += x * cos(before.heading) + y * sin(before.heading)
             turned = self.turned + remainder(pose.heading - before.heading, tau)
             self._notice(pose, turned, now)
         self._poses.append((now, pose))
