@@ -91,7 +91,10 @@ def test_whoever_follows_the_page_drives_a_circle_with_a_car_that_nobody_knew(ri
     sitting.reverse(backward, backward - 10)
     sim.says("and turn at -0.")
     sitting.screen.type(ENTER)
+    sitting.screen.shows("the robot starts anew")
+    sitting.screen.type("zzz\r")  # between two screens: neither shows nor counts
     sitting.screen.shows("3 of 7", "forward starts", " idle")
+    assert b"zzz" not in sitting.screen.output
     middle = (forward + backward) / 2
     until(lambda: abs((rig.ticks[THROTTLE] or 0) - middle) <= 1, "the motor's own neutral")
     sitting.neutral[THROTTLE] = rig.ticks[THROTTLE] or 0

@@ -147,11 +147,18 @@ def test_a_demo_leaves_the_robot_of_the_config_file_alone(rig: Rig, screen: Term
     assert screen.ends() == 0
 
 
-def test_a_demo_whose_simulator_is_gone_says_so_and_what_to_do(screen: Terminal) -> None:
+@pytest.mark.parametrize(
+    ("verb", "part", "words"), [("sim", "simulator", ""), ("actuator", "robot", "{robot} is gone")]
+)
+def test_a_demo_of_which_a_part_is_gone_says_so_and_what_to_do(
+    screen: Terminal, verb: str, part: str, words: str
+) -> None:
+    robot = robot_of(screen)
     numbers = Path(f"/proc/{screen.process.pid}/task/{screen.process.pid}/children").read_text().split()
-    (simulator,) = (int(pid) for pid in numbers if " sim " in command_line(Path(f"/proc/{pid}")))
-    os.kill(simulator, signal.SIGKILL)
-    screen.shows("demo: its simulator ended: q, and start another")
+    (child,) = (int(pid) for pid in numbers if f" {verb} " in command_line(Path(f"/proc/{pid}")))
+    os.kill(child, signal.SIGKILL)
+    screen.shows(f"demo: its {part} ended: q, and start another", words.format(robot=robot))
+    assert "zteleop actuator" not in screen.screen, "which would be another robot"
     screen.type("q")
     assert screen.ends() == 0
 

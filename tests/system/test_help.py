@@ -42,7 +42,7 @@ def nobody(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Rig]:
 
 def goes_on(verb: str, words: list[str]) -> bool:
     """Say whether a command ends only when it is told to."""
-    if verb in ("echo", "pub", "watchdog"):
+    if verb in ("echo", "pub", "watchdog", "latency"):
         return not {"--once", "--times", "--count", "-t", "--for"} & set(words)
     endless = ("actuator", "buttons", "sim", "odometry", "hz", "bw", "delay", "watch", "log")
     return verb in endless or words == ["up"]

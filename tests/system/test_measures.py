@@ -11,7 +11,7 @@ from rig import NEUTRAL, PATIENCE, ZTELEOP, Process, Rig, Watch, repeating, unti
 
 from zteleop.bus import presence
 from zteleop.bus.names import Name
-from zteleop.messages import Header, String, Time, TwistStamped
+from zteleop.messages import Header, String, Time, Twist, TwistStamped
 
 HZ = 50.0
 
@@ -57,6 +57,24 @@ def test_hz_and_bw_and_delay_measure_what_a_publisher_does(rig: Rig) -> None:
     assert min(ages) > 1e9, "the stamp was of 1970"
     assert re.search(r"^/bench/chatter +\d", said["table"], re.MULTILINE), said["table"]
     assert re.search(r"^/bench/nothing +not heard$", said["table"], re.MULTILINE), said["table"]
+
+
+def test_latency_follows_a_program_from_the_robots_door_to_its_chip(rig: Rig) -> None:
+    motors = rig.node().publisher("cmd_vel", TwistStamped)
+
+    def drive() -> None:
+        motors.publish(TwistStamped(Header(Time(1, 0), "base_link"), Twist.planar(0.2)))
+
+    latency = rig.join("latency")
+    until(lambda: "nobody drives" in latency.text, "a line before anybody drives")
+    with repeating(drive, 1 / HZ):
+        until(lambda: re.search(r"^program \w{4} ", latency.text, re.MULTILINE), "a line of the program")
+        whole = r"^program \w{4} +- +(\S+) +(\d\S+) +(\d\S+) +(\d\S+) +(\d\S+)$"
+        until(lambda: re.search(whole, latency.text, re.MULTILINE), "all parts")
+    motors.let_go()
+    network, door, chip, in_all, worst = map(float, re.findall(whole, ended(latency), re.MULTILINE)[-1])
+    assert in_all == pytest.approx(network + door + chip, abs=0.02)
+    assert worst >= in_all >= chip > 0
 
 
 MEASURES = {

@@ -145,6 +145,12 @@ def test_echo_finds_the_only_robot_there_is(rig: Rig) -> None:
     assert json.loads(result.stdout)["epoch"] > 0
 
 
+def test_echo_says_once_what_it_waited_for_in_vain(rig: Rig) -> None:
+    waits, ends = ask(rig, "echo", "battery_state", "--timeout", "1.5").stderr.splitlines()
+    assert waits.startswith("zteleop echo: waits for bench/battery_state: nobody publishes it")
+    assert ends == "zteleop echo: for 1.5 s nothing was said on bench/battery_state"
+
+
 def test_echo_gives_up_after_its_timeout(rig: Rig) -> None:
     result = ask(rig, "echo", "battery_state", "--timeout", "0.1")
     is_one_sentence(result, "echo", "for 0.1 s nothing was said on bench/battery_state: nobody publishes it")

@@ -23,6 +23,8 @@ class Received(NamedTuple, Generic[M]):
     proof: Proof | None
     at: float
     """when it was read, by the bus clock"""
+    came: float = 0.0
+    """when this machine had it, by the same clock"""
 
     @property
     def source(self) -> str:
@@ -85,7 +87,7 @@ class Subscription(Generic[M]):
 
     def read(self, sample: Sample) -> Received[M] | None:
         """Return the message in a sample; None, counted and said, when it is none."""
-        key, payload, encoding, attachment, is_put, _ = sample
+        key, payload, encoding, attachment, is_put, came = sample
         if not is_put or "*" in key:
             self._drop(key, "a delete or a wildcard is no message")
             return None
@@ -95,7 +97,7 @@ class Subscription(Generic[M]):
             self._drop(key, str(error))
             return None
         proof = codec.unpack_proof(attachment) if attachment is not None else None
-        return Received(message, key, proof, clock.now())
+        return Received(message, key, proof, clock.now(), came)
 
     def _drop(self, key: str, why: str) -> None:
         self.dropped += 1

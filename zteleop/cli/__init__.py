@@ -46,6 +46,7 @@ VERBS = {
     "interface show": "say what a type of message is made of",
     "interface proto": "print a message of a type, to be filled in for pub",
     "why": "say why a robot moves as it does, or does not",
+    "latency": "show how long commands take from an act to the chip, part by part",
     "blackbox": "tell what happened in the minute before a robot stopped",
     "watchdog": "show what a robot's watchdog sees",
     "chaos": "do to a robot whatever can go wrong, and certify that it stops",

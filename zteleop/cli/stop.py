@@ -17,6 +17,8 @@ EXAMPLES = (
     'zteleop stop archangel --why "a cat"',
     "zteleop stop --release archangel",
 )
+AT_A_SHELL = "at a shell"
+"""why, where nobody says so: which of the ways to stop it that somebody has"""
 GLANCE = 0.01
 TELL_AFTER = 1.0
 """s until it says for whom it waits"""
@@ -70,8 +72,8 @@ class Stops:
         """Begin to stop those that are not asked yet."""
         for robot in robots:
             if robot not in self._asked:
-                self._asked[robot] = Stopping(None, person(), robot, self._lane, "at a shell")
-                self._asked[robot].engage(clock.now(), self._why)
+                self._asked[robot] = Stopping(None, person(), robot, self._lane)
+                self._asked[robot].engage(clock.now(), self._why or AT_A_SHELL)
 
     def join(self, settings: Config, settle: bool) -> Node:
         """Join the bus, and say meanwhile on the lane what is asked for; raises BusError as that does."""

@@ -158,3 +158,27 @@ class Refusals(Message):
     """What keeps the robot at rest, whoever commands; empty when nothing does."""
     released: Annotated[int, Meta(ge=0, lt=2**53)]
     """As in DriveStatus."""
+
+
+class Hop(Message):
+    """A part of the way from a key to a wheel, and how long commands took on it."""
+
+    ros_type: ClassVar[str] = "zteleop_msgs/msg/Hop"
+
+    name: str
+    commands: int
+    median: float
+    """s"""
+    worst: float
+    """s"""
+
+
+class Latency(Message):
+    """How long commands took where one process has them; said once a second, and only while there are any."""
+
+    ros_type: ClassVar[str] = "zteleop_msgs/msg/Latency"
+
+    by: str
+    """Who says so: `actuator`, or an operator's input as it is called everywhere, such as `keyboard 18d4`."""
+    hops: list[Hop]
+    """In the order in which they are passed."""

@@ -168,6 +168,7 @@ class Actuator:
             who = called(source, f"{proof.sender:x}") if proof else received.key
             self._node.log.warn(f"{who} is refused: {refusal}", f"{source} {refusal}")
         elif moved:
+            self._state.time(received.came, now)
             self._report(*moved)
         else:
             self._step_soon(now)

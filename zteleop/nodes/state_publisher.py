@@ -12,6 +12,7 @@ from zteleop.control.snapshot import snapshot
 from zteleop.machine.stop_file import StopFile
 from zteleop.messages import Beat, DriveStatus, Refusals, Vehicle, Why
 from zteleop.nodes.output import Output
+from zteleop.nodes.times import ACTUATOR_TO_CHIP, DOOR_TO_ACTUATOR, ROBOT, Times
 
 REPEAT_EVERY = 0.19
 """s between two statuses that say the same: every fourth beat"""
@@ -33,6 +34,7 @@ class StatePublisher:
         self._vehicles = node.publisher("vehicle", Vehicle)
         self._whys = node.publisher("why", Why)
         self._refusals = node.publisher("refusals", Refusals)
+        self._times = Times(node, lambda: ROBOT)
         self._told: object = None
         """what was news when the robot last said what it does"""
         self._repeat_at = NEVER
@@ -40,6 +42,11 @@ class StatePublisher:
     def note(self, sender: int, source: str, refusal: Refusal | None, now: float) -> None:
         """Remember how a command was judged, for those who must be told."""
         self._refused.note(sender, source, refusal, now)
+
+    def time(self, came: float, taken: float) -> None:
+        """Note when this machine and this process had a command that is on the chip now."""
+        self._times.note(DOOR_TO_ACTUATOR, taken - came)
+        self._times.note(ACTUATOR_TO_CHIP, self._output.evidence.written - taken)
 
     def tell(self, step: Step) -> None:
         """Say what commands must echo from now on, and what the robot does while that is news."""

@@ -5,8 +5,6 @@ import socket
 from collections.abc import Sequence
 from typing import Literal
 
-from msgspec.structs import replace
-
 from zteleop.bus.lane.call import Call
 from zteleop.bus.lane.wire import Answered
 from zteleop.bus.node import Node
@@ -28,17 +26,11 @@ _LONGEST = 200
 
 
 class Stopping:
-    """One stop or one release at a time, said 20 times a second until `drive_status` shows it.
+    """One stop or one release at a time, said 20 times a second until `drive_status` shows it."""
 
-    Where nobody gives a reason, others read `at` which of somebody's keyboards and shells it was.
-    """
-
-    def __init__(
-        self, node: Node | None, by: str, robot: str = "", lane: Call | None = None, at: str = ""
-    ) -> None:
+    def __init__(self, node: Node | None, by: str, robot: str = "", lane: Call | None = None) -> None:
         self.robot = robot
-        self._word = Stop(True, 0, _sayable(by), _sayable(at))
-        """what is said, but for its id"""
+        self._by = _sayable(by)
         self._ways = Ways(lane)
         if node:
             self.join(node)
@@ -79,7 +71,7 @@ class Stopping:
 
     def engage(self, now: float, why: str = "") -> None:
         """Begin to ask for a stop, under an id of its own."""
-        self._ask([replace(self._word, id=new_id(), why=_sayable(why) or self._word.why)], now)
+        self._ask([Stop(True, new_id(), self._by, _sayable(why))], now)
         self.words = f"asking {self.robot} to stop"
 
     def release(self, status: DriveStatus | None, now: float, everybodys: bool = False) -> None:
@@ -96,7 +88,7 @@ class Stopping:
         elif not meant:
             self._refuse("failed", self._tell_whose(stops), now)
         elif self.state != "pending" or _ids(self._asked) != _ids(meant) or self._engages:
-            self._ask([Stop(False, stop.id, self._word.by, "") for stop in meant], now)
+            self._ask([Stop(False, stop.id, self._by, "") for stop in meant], now)
             self.words = f"asking {self.robot} to end its stop"
 
     def heed(self, status: DriveStatus | None, now: float) -> bool:
@@ -143,7 +135,7 @@ class Stopping:
         return bool(self._asked) and self._asked[0].engaged
 
     def _may_release(self, stop: Stop) -> bool:
-        return stop.by == self._word.by or (not is_persons(stop) and stop.id != MERGED.id)
+        return stop.by == self._by or (not is_persons(stop) and stop.id != MERGED.id)
 
     def _tell_whose(self, stops: Sequence[Stop]) -> str:
         return (
@@ -199,7 +191,7 @@ class Stopping:
         """Say whether a stop is in force: by its id, or by what has taken its place."""
         before = self._before or ()
         return any(
-            stop.id in (self._asked[0].id, MERGED.id) or (stop.by == self._word.by and stop.id not in before)
+            stop.id in (self._asked[0].id, MERGED.id) or (stop.by == self._by and stop.id not in before)
             for stop in status.stops
         )
 

@@ -1,19 +1,21 @@
 """From an input device to commands: what the stick asks for, at each act and 20 times a second."""
 
 from collections.abc import Callable
+from typing import NamedTuple
 
 from zteleop.bus import clock
 from zteleop.bus.lane.call import Call
 from zteleop.bus.node import Node
 from zteleop.bus.topics import TOPICS
-from zteleop.control.proof import called
-from zteleop.control.stick import Stick, neutral_pwm, to_pwm, to_twist
+from zteleop.control.stick import Stick, to_pwm, to_twist
 from zteleop.errors import BusError, ConfigError
 from zteleop.inputs import Input, Wish
-from zteleop.messages import Header, Pwm, Twist, TwistStamped, Vehicle
+from zteleop.messages import Pwm, Twist, Vehicle
 from zteleop.nodes.sight import Sight
 from zteleop.nodes.speed_parameters import offer_speeds
 from zteleop.nodes.stop_request import REPEAT, Stopping, person
+from zteleop.nodes.times import ACT_TO_BUS, Times
+from zteleop.nodes.voice import Voice
 from zteleop.screen.view import View
 
 PERIOD = TOPICS["cmd_vel"].every
@@ -26,6 +28,13 @@ LEAVING = f"ends when the stop has been said for {REPEAT:g} s, to whoever comes 
 NEWS = 5.0
 """s that the answer to a stop or a release is shown."""
 SHOW_AFTER = 0.004  # drawing at once would hold up what was just said on its way out
+
+
+class Asked(NamedTuple):
+    """What the operator asked for last."""
+
+    stick: Stick
+    command: Twist | Pwm | None = None
 
 
 class Teleop:
@@ -45,14 +54,12 @@ class Teleop:
         self._vehicle = vehicle
         self._show = show
         self._sight = Sight(node)
-        self._twists = node.publisher("cmd_vel", TwistStamped, source=source, wait=False)
-        self._pwms = node.publisher("pwm", Pwm, source=source, wait=False)
-        at = f"at {called(source, self._twists.sender)}"
-        self._stopping = Stopping(node, person(), lane=lane, at=at)
+        self._voice = Voice(node, device, source)
+        self._stopping = Stopping(node, person(), lane=lane)
         self._looked = clock.now()
         self._neutrals = 0
-        self._stick = Stick()
-        self._wanted: Twist | Pwm | None = None
+        self._asked = Asked(Stick())
+        self._times = Times(node, lambda: self._voice.name)
         self._picture = node.membership.loop.alarm(self._draw)
         self._clock = node.membership.loop.every(AT_REST, self.obey)
         device.fit(vehicle)
@@ -69,7 +76,7 @@ class Teleop:
         try:
             self._node.spin()
         finally:
-            self._say(None)
+            self._voice.say(None, self._vehicle)
         if self._stopping.unanswered:
             raise BusError(self._stopping.words)
 
@@ -79,28 +86,29 @@ class Teleop:
         status = self._sight.status
         driven = status is not None and status.state == "driving"
         stops = self._stopping.state == "pending" or self._stopping.repeats(clock.now())
-        return driven or stops or self._stick.deadman or self._neutrals > 0
+        return driven or stops or self._asked.stick.deadman or self._neutrals > 0
 
     def obey(self) -> None:
         """Take in what the operator did, say what the stick asks for, and soon show it."""
         now = clock.now()
         self._notice_robot(now)
-        if self._device.read(now):
-            self._twists.act()
-            self._pwms.act()
+        if acted := self._device.read(now):
+            self._voice.act()
         self._notice_pause(now)
         self._pass_on_wish(now)
         stick = self._device.stick(now)
         command = self._command(stick)
         rested, self._device.rested = self._device.rested, False
-        if rested and command and self._wanted:  # let go and pressed again, before anybody looked
-            self._say(None)
+        if rested and command and self._asked.command:  # let go and pressed again, before anybody looked
+            self._voice.say(None, self._vehicle)
         if command:
             self._neutrals = NEUTRALS
         if self._neutrals:
             self._neutrals -= command is None
-            self._say(command)
-        self._stick, self._wanted = stick, command
+            self._voice.say(command, self._vehicle)
+            if acted:
+                self._times.note(ACT_TO_BUS, clock.now() - now)
+        self._asked = Asked(stick, command)
         self._picture.ring_at(now + SHOW_AFTER)
         self._clock.pace(PERIOD if self._is_busy else AT_REST, now)
         if self._device.finished and self._stopping.state != "pending" and not self._stopping.repeats(now):
@@ -113,15 +121,6 @@ class Teleop:
         if self._device.drive == "step":
             return to_pwm(stick, self._vehicle)
         return to_twist(stick, self._device.speeds, self._vehicle)
-
-    def _say(self, command: Twist | Pwm | None) -> None:
-        if self._device.drive == "step":
-            say = self._pwms.repeat if command else self._pwms.rest
-            say(command if isinstance(command, Pwm) else neutral_pwm(self._vehicle))
-        else:
-            say_twist = self._twists.repeat if command else self._twists.rest
-            twist = command if isinstance(command, Twist) else Twist.planar()
-            say_twist(TwistStamped(Header(clock.stamp(), "base_link"), twist))
 
     def _notice_pause(self, now: float) -> None:
         """Drop what was typed while this process stood still: it was meant for then. A stop counts."""
@@ -143,7 +142,7 @@ class Teleop:
     def _pass_on_wish(self, now: float) -> None:
         wish, self._device.wish = self._device.wish, None
         if wish is Wish.STOP:
-            self._stopping.engage(now)
+            self._stopping.engage(now, f"at {self._voice.name}")
             self._device.reset(now)
         elif wish is Wish.RELEASE:
             self._stopping.release(self._sight.status, now)
@@ -158,14 +157,14 @@ class Teleop:
             self._node.log.warn(f"{self._node.robot} cannot be driven like this: {error}")
 
     def _view(self, now: float) -> View:
-        publisher = self._pwms if self._device.drive == "step" else self._twists
+        publisher = self._voice.publisher
         status, unmanned = self._sight.status, self._sight.unmanned
         ours = status is not None and status.operator == publisher.sender
         return View(
             now=now,
             vehicle=self._vehicle,
-            stick=self._stick,
-            command=self._wanted,
+            stick=self._asked.stick,
+            command=self._asked.command,
             status=None if unmanned else status,
             ours=ours,
             refused=publisher.refused,

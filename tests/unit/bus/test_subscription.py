@@ -32,8 +32,9 @@ def inbox(clock: Clock) -> Inbox:
 
 
 def test_a_message_is_read_with_its_key_and_when_it_was(inbox: Inbox, clock: Clock) -> None:
-    received = inbox.read(sample(String("hello"), "robot/archangel/cmd_vel/web"))
-    assert received == (String("hello"), "robot/archangel/cmd_vel/web", None, clock.time)
+    at_the_door = clock.time - 0.25
+    received = inbox.read(sample(String("hello"), "robot/archangel/cmd_vel/web")._replace(at=at_the_door))
+    assert received == (String("hello"), "robot/archangel/cmd_vel/web", None, clock.time, at_the_door)
     assert received.source == "web"
     assert (inbox.subscription.dropped, inbox.complaints) == (0, [])
 

@@ -1,3 +1,4 @@
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
@@ -30,6 +31,8 @@ from zteleop.testing import Clock, FakeNode, MemoryChip
 NEUTRAL = {0: 1509.6, 1: 1530.0}
 FORWARD = Twist.planar(0.5)
 PUSH = Pwm(390, 370)
+AT_THE_DOOR = 0.0001
+"""s in which a command is passed on"""
 """On the chip at once: nothing limits how fast one steers."""
 KEPT = Stop(engaged=True, id=5, by="ann", why="a child on the track")
 
@@ -137,7 +140,8 @@ class Robot:
         self.prover.act(self.beat)
         proof = proof or self.prover.prove(self.beat, moving, self.clock.time)
         key = f"robot/archangel/cmd_vel/{source}"
-        self.node.inboxes[f"cmd_vel/{source}"].handler(Received(message, key, proof, self.clock.time))
+        came = self.clock.time - AT_THE_DOOR
+        self.node.inboxes[f"cmd_vel/{source}"].handler(Received(message, key, proof, self.clock.time, came))
         self.node.loop.ring(self.clock.time)
 
     def stop(self, stop: Stop) -> None:
@@ -624,12 +628,32 @@ def test_a_few_commands_in_a_row_are_answered_at_once_and_then_share_a_step(robo
     for ticks_ in (395, 400):
         robot.say(Pwm(ticks_, 370))
     assert len(robot.chip.writes) == writes + IN_A_ROW
-    soon = robot.node.loop.alarms[0]
+    soon = min(robot.node.loop.alarms, key=lambda alarm: alarm.due)
     assert soon.due == pytest.approx(robot.clock.time + AT_MOST_EVERY, abs=1e-9)
     robot.clock.time = soon.due
     robot.node.loop.ring(soon.due)
     assert len(robot.chip.writes) == writes + IN_A_ROW + 1
     assert robot.chip.writes[-1][1] == pytest.approx(400 * 4.08)
+
+
+def test_what_a_command_took_from_the_door_to_the_chip_is_told_part_by_part(robot: Robot) -> None:
+    write = robot.chip.write
+
+    def take_time(pulse_us: Mapping[int, float]) -> None:
+        robot.clock.pass_by(0.002)
+        write(pulse_us)
+
+    robot.chip.write = take_time
+    robot.say(PUSH)
+    robot.say(PUSH, moving=False, proof=Proof(9, 1, 9, 0.0, 0.0, 0.0))  # refused: it gets nowhere
+    robot.clock.pass_by(1.0)
+    robot.node.loop.ring(robot.clock.time)
+    (told,) = robot.node.said["latency"].messages
+    assert (told.by, [(hop.name, hop.commands) for hop in told.hops]) == (
+        "actuator",
+        [("door to actuator", 1), ("actuator to chip", 1)],
+    )
+    assert [hop.median for hop in told.hops] == pytest.approx([AT_THE_DOOR, 0.002])
 
 
 def test_a_flood_is_answered_at_most_200_times_a_second(robot: Robot) -> None:

@@ -257,6 +257,28 @@ def test_whoever_drives_or_stops_is_looked_at_at_every_tick(desk: Desk, what: st
     assert len(looks) == 3
 
 
+def test_what_an_act_took_to_the_bus_is_told_by_the_name_that_everything_calls_this_input(desk: Desk) -> None:
+    desk.device.position = Stick(1.0, 0.0, deadman=True)
+    desk.device.acted = False
+    desk.tick(3)
+    assert not desk.node.said["latency"].messages, "what only goes on is no act"
+    desk.device.acted = True
+    desk.device.stick = lambda now: desk.clock.pass_by(0.003) or desk.device.position
+    desk.tick()
+    desk.device.acted = False
+    desk.node.loop.live(1.1)
+    (told,) = desk.node.said["latency"].messages
+    assert told.by == "keyboard 0001"
+    assert desk.node.said["cmd_vel"].sender == "1"
+    assert [(hop.name, hop.commands, round(hop.median, 6)) for hop in told.hops] == [("act to bus", 1, 0.003)]
+
+
+def test_in_steps_it_is_called_by_what_says_ticks_in_a_stop_as_well(desk: Desk) -> None:
+    desk.device.drive, desk.device.wish = "step", Wish.STOP
+    desk.tick()
+    assert (desk.node.said["pwm"].sender, desk.stops.messages[0].why) == ("2", "at keyboard 0002")
+
+
 def test_a_device_without_a_file_is_not_watched(desk: Desk) -> None:
     desk.teleop.run()
     assert desk.node.loop.watched == {}

@@ -1,6 +1,7 @@
 import io
 import os
 import pty
+import select
 import sys
 import termios
 from collections.abc import Iterator
@@ -30,6 +31,7 @@ def test_what_is_typed_meanwhile_neither_shows_nor_reaches_the_shell(typing: int
         assert not local_modes() & ECHO
         assert local_modes() & termios.ISIG, "Ctrl-C counts"
         os.write(typing, b"rm -rf\n")
+        assert select.select([sys.stdin], [], [], 5.0)[0], "it has arrived"
     assert termios.tcgetattr(sys.stdin) == before
     os.set_blocking(typing, False)
     with pytest.raises(BlockingIOError):
