@@ -84,7 +84,7 @@ def test_a_device_to_drive_with(tank: Vehicle, clock: Clock) -> None:
     node = FakeNode()
     teleop = Teleop(node, Metronome(), "metronome", tank, lambda view: None)
     teleop.obey()
-    assert teleop._twists.messages[-1].twist.linear.x == tank.max_speed / 2
+    assert node.said["cmd_vel"].messages[-1].twist.linear.x == tank.max_speed / 2
 
 
 CHIP = """
