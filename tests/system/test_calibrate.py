@@ -16,7 +16,7 @@ from zteleop.sim.unknown import unknown
 TICK = 4.08
 PAGE = (Path(__file__).parents[2] / "docs/car.md").read_text()
 TYPED = [shlex.split(line) for line in re.findall(r"^    zteleop (.+)$", PAGE, re.MULTILINE)]
-INIT, SIM, CALIBRATE, ACTUATOR, CIRCLE = TYPED[:5]
+INIT, SIM, CALIBRATE, ACTUATOR, CIRCLE, BACKWARD = TYPED[:6]
 SEED = int(SIM[-1])
 REALLY = unknown(DONKEYCAR, SEED)
 UP, DOWN, RIGHT, LEFT = ("\x1b[A", "\x1b[B", "\x1b[C", "\x1b[D")
@@ -112,6 +112,7 @@ def test_whoever_follows_the_page_drives_a_circle_with_a_car_that_nobody_knew(ri
     sitting.screen.type(ENTER)
     assert sitting.screen.ends() == 0
     assert "config.toml is written" in sitting.screen.output.decode()
+    assert "; tapped twice to reverse" in sitting.screen.output.decode()
     found = msgspec.toml.decode((rig.folder / "config.toml").read_bytes())["drive"]["servos"]
     for name, servo in REALLY.servos.items():
         for field in ("min_us", "neutral_us", "max_us"):
@@ -121,6 +122,11 @@ def test_whoever_follows_the_page_drives_a_circle_with_a_car_that_nobody_knew(ri
     radius = re.search(r"a radius of (\d\.\d\d) m", circle.stdout)
     assert radius, circle.stderr
     assert float(radius[1]) == pytest.approx(1.0, abs=0.05)
+    assert (REALLY.settings.reverse, found["throttle"]["reverse"]) == ("double_tap", "double_tap")
+    back = rig.result(*BACKWARD, *rig.bus_options())
+    way = re.search(r"went (\d\.\d\d) m backwards", back.stdout)
+    assert way, back
+    assert float(way[1]) > 0.4
 
 
 def test_what_is_not_finished_is_not_written(rig: Rig) -> None:

@@ -192,3 +192,19 @@ def test_it_charges_in_its_dock_until_it_drives_out(rig: Rig, node: Node) -> Non
     hear(docks, lambda seen: not seen.is_docked and not seen.dock_visible, "the dock is behind it")
     hear(batteries, lambda seen: seen.current < 0, "it discharges")
     sim.close()
+
+
+@pytest.mark.usefixtures("sim")
+def test_a_key_of_an_operator_presses_a_button_and_lets_it_go(rig: Rig, node: Node) -> None:
+    presses = node.subscription("interface_buttons", InterfaceButtons)
+    (rig.folder / "keys.toml").write_text('[keys]\n1 = "toggle button_1"\n')
+    screen = rig.keyboard("--config", "keys.toml")
+    screen.shows(" idle", "button_1 off")
+    screen.type("1")
+    hear(presses, lambda seen: seen.button_1.is_pressed and not seen.button_2.is_pressed, "it is down")
+    said = ask(rig, "service call", "button_1", "std_srvs/srv/SetBool", "{data: true}")
+    assert "button_1 is down already" in said
+    screen.type("1")
+    hear(presses, lambda seen: not seen.button_1.is_pressed, "it is up")
+    screen.type("q")
+    assert screen.ends() == 0

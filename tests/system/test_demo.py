@@ -172,6 +172,15 @@ def test_a_tank_is_driven_in_a_maze(rig: Rig) -> None:
     assert screen.ends() == 0
 
 
+def test_a_demo_on_a_bad_radio_drives_slower_and_says_why(rig: Rig) -> None:
+    screen = rig.terminal("demo", "--drive", "step", "--latency", "150ms", "--loss", "5%", columns=110)
+    screen.shows("idle, nobody operates", "place")
+    screen.type(UP)
+    screen.shows("driving, you operate", "slowed")
+    screen.type("q")
+    assert screen.ends() == 0
+
+
 def test_a_scene_that_is_none_starts_nothing(rig: Rig) -> None:
     demo = rig.run("demo", "--scene", "mazze")
     assert demo.ends() == 1

@@ -21,6 +21,7 @@ TOPICS = [
     "/bench/beat",
     "/bench/cmd_vel",
     "/bench/drive_status",
+    "/bench/latency",
     "/bench/log",
     "/bench/pwm",
     "/bench/refusals",

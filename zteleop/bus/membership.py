@@ -34,6 +34,8 @@ class Membership:
     ) -> None:
         self.session = session
         self.loop = Loop(before_each=self.listen)
+        self.link: Callable[[Outlet], Outlet] = _as_it_is
+        """what an outlet is made into, for a link that is worse than it is"""
         self._node = node
         self._robot = robot
         self._complain = complain
@@ -53,7 +55,7 @@ class Membership:
     def outlet(self, name: Name, types: tuple[type[Message], ...], urgent: bool) -> Outlet:
         """Return what says bytes on a topic, and tell everybody that it is there."""
         self.session.declare_token(presence.endpoint_key(name, "pub", self._node, types))
-        return self.session.advertise(name.key, urgent)
+        return self.link(self.session.advertise(name.key, urgent))
 
     def inbox(
         self,
@@ -150,3 +152,7 @@ class Membership:
 
 def _keep_quiet(text: str) -> None:
     """Leave it to somebody else to complain."""
+
+
+def _as_it_is(outlet: Outlet) -> Outlet:
+    return outlet

@@ -230,6 +230,17 @@ def rate_hz(text: str) -> float:
     return found
 
 
+def share(text: str) -> float:
+    """Return a part of the whole, 0 to 1, as typed: 5% or 0.05."""
+    try:
+        found = float(text.removesuffix("%")) / (100 if text.endswith("%") else 1)
+    except ValueError:
+        found = -1.0
+    if not 0 <= found <= 1:
+        raise argparse.ArgumentTypeError(f"expected a share, such as 5% or 0.05, found {text}")
+    return found
+
+
 def _robot(text: str) -> str:
     try:
         return robot_name(text)

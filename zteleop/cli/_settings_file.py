@@ -16,6 +16,8 @@ from zteleop.errors import ConfigError
 Changes = Mapping[tuple[str, ...], Any]
 """Values by the names of their tables, and their own."""
 PULSES = ("min_us", "neutral_us", "max_us")
+HOW = {"direct": "", "double_tap": "; tapped twice to reverse", "none": "; without reverse"}
+"""what there is to say of an ESC, beside its pulses"""
 
 
 class SettingsFile:
@@ -88,7 +90,7 @@ def of_servos(servos: Mapping[str, Servo]) -> dict[tuple[str, ...], Any]:
     return {
         ("drive", "servos", name, field): rounded(getattr(servo, field))
         for name, servo in servos.items()
-        for field in ("channel", *PULSES, *(() if name == "steering" else ("dead_zone_us",)))
+        for field in ("channel", *PULSES, *(() if name == "steering" else ("dead_zone_us", "reverse")))
     }
 
 
@@ -104,7 +106,8 @@ def pulses_told(before: Config, after: Config) -> list[str]:
         was, old = before.drive.servos.get(name), ""
         if was is not None and (ticks := in_ticks(was, before.tick_us)) != in_ticks(servo, tick):
             old = f", before {ticks}"
-        lines.append(f"{name:8} on channel {servo.channel}: {in_ticks(servo, tick)} ticks{old}")
+        now = f"{in_ticks(servo, tick)} ticks{old}{HOW[servo.reverse]}"
+        lines.append(f"{name:8} on channel {servo.channel}: {now}")
     return lines
 
 

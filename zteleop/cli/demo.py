@@ -12,7 +12,7 @@ from pathlib import Path
 from zteleop.bus import clock
 from zteleop.bus.node import Node
 from zteleop.bus.settings import SAME_MACHINE_DOOR, BusSettings
-from zteleop.cli import _scenes
+from zteleop.cli import _bad_link, _scenes
 from zteleop.cli._driving import find_vehicle
 from zteleop.cli._scratch import DEMO, scratch
 from zteleop.cli.keyboard import drive_with_keys
@@ -52,6 +52,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--vehicle", choices=[*VEHICLES], default="car", help="what drives (default: car)")
     parser.add_argument("--drive", choices=["step", "hold"], help="how the keys drive (default: step)")
+    _bad_link.add(parser, "what operator and simulator say")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -78,11 +79,12 @@ def run(arguments: argparse.Namespace) -> int:
             SAME_MACHINE_DOOR,
         ]
         simulator = ["sim", vehicle, *where, "--connect", endpoint, "--listen", "tcp/127.0.0.1:0"]
-        simulator += ["--scene", place]
+        simulator += ["--scene", place, *_bad_link.as_typed(arguments)]
         keeps = {"XDG_STATE_HOME": str(folder)}  # a demo leaves nothing behind
         children = [stack.enter_context(leashed(verb, log, keeps)) for verb in (actuator, simulator)]
         bus = BusSettings(connect=[endpoint], listen=["tcp/127.0.0.1:0"], multicast=False)
         node = stack.enter_context(Node("keyboard", robot, bus))
+        _bad_link.worsen(node, arguments)
         await_robot(node, children, Path(log.name))
         if screen:
             trip = Trip()

@@ -8,7 +8,7 @@ from zteleop import config
 from zteleop.bus import clock, presence
 from zteleop.bus.node import Node
 from zteleop.bus.session import Session, open_session
-from zteleop.cli import _options, _scenes
+from zteleop.cli import _bad_link, _options, _scenes
 from zteleop.cli._alone import expect_alone
 from zteleop.config import Config
 from zteleop.control.report import to_vehicle
@@ -49,7 +49,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default="none",
         help="how wrong its odometry and its range are (default: none)",
     )
-    parser.add_argument("--seed", metavar="N", type=int, default=0, help="of the noise, and of --unknown")
+    parser.add_argument("--seed", metavar="N", type=int, default=0, help="of noise, --loss and --unknown")
     parser.add_argument(
         "--unknown",
         action="store_true",
@@ -58,6 +58,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--camera", action="store_true", help="say what it sees ahead, on camera/image/compressed"
     )
+    parser.add_argument(
+        "--charge", metavar="SHARE", type=_options.share, default=1.0, help="of its battery (default: 100%%)"
+    )
+    _bad_link.add(parser, "what it says")
     _options.add_parent(parser)
 
 
@@ -67,6 +71,7 @@ def run(arguments: argparse.Namespace) -> None:
     session = open_session(settings.bus, settle=True)
     with _join(_robot_of(settings, session), session) as node:
         expect_alone(node)
+        _bad_link.worsen(node, arguments, arguments.seed)
         robot = node.robot or ""
         kind = arguments.vehicle or name_of(settings.drive)
         driver = settings.driver_settings("simulated", robot)
@@ -75,7 +80,13 @@ def run(arguments: argparse.Namespace) -> None:
         unlimited = msgspec.structs.replace(settings.drive, limits=VEHICLES[kind].limits)
         node.every(TELL_AFTER)(Attendant(node, kind, to_vehicle(unlimited, 1.0), arguments.unknown).look)
         simulated = Simulated(
-            kind, scene, LEVELS[arguments.noise], arguments.seed, arguments.unknown, arguments.camera
+            kind,
+            scene,
+            LEVELS[arguments.noise],
+            arguments.seed,
+            arguments.unknown,
+            arguments.camera,
+            arguments.charge,
         )
         simulator.run(node, settings.drive, driver["path"], lambda line: print(line, flush=True), simulated)
 

@@ -5,7 +5,7 @@ from typing import Literal, NamedTuple
 
 from msgspec.structs import replace
 
-from zteleop.control.servo import Servo
+from zteleop.control.servo import Reverse, Servo
 
 Axis = Literal["steering", "throttle"]
 Find = Literal[
@@ -51,6 +51,9 @@ class Measuring:
         self._end = MOTOR_FIRST
         self.found: dict[Find, float] = {}
         """us, by what was asked for"""
+        self._ways = [0.0]
+        """us from neutral, how far the motor's pulse went each time that it left it in this step"""
+        self._reverse: Reverse | None = None
 
     @property
     def number(self) -> int:
@@ -71,27 +74,37 @@ class Measuring:
         """Begin the second part, with neutral known; what was found before cannot be changed any more."""
         self._first, self._end = MOTOR_FIRST, len(STEPS)
 
+    def see(self, throttle_us: float) -> None:
+        """Take in what leaves the chip for the motor: an ESC that brakes first has to be told twice."""
+        off = throttle_us - self.neutral_us
+        if abs(off) >= self._tick_us:
+            self._ways[-1] = max(self._ways[-1], off, key=abs)
+        elif self._ways[-1]:
+            self._ways.append(0.0)
+
     def take(self, pulse_us: float) -> str:
         """Answer a step, unless that cannot be, which is told."""
         if self.is_over:
             return ""
         if wrong := self._wrong(pulse_us):
             return wrong
+        if self.step.find == "reverse starts":
+            self._reverse = "double_tap" if self._was_there(pulse_us) else "direct"
         self.found[self.step.find] = pulse_us
-        self._number += 1
+        self._go_to(self._number + 1)
         return ""
 
     def skip(self) -> None:
         """Leave what a step asks for as it was before."""
         if not self.is_over:
             self.found.pop(self.step.find, None)
-            self._number += 1
+            self._go_to(self._number + 1)
 
     def back(self) -> str:
         """Ask the step before once more; where that cannot be, say why."""
         if self._number == self._first:
             return "the neutral that was found is in use, and stays" if self._first else "this is the first"
-        self._number -= 1
+        self._go_to(self._number - 1)
         return ""
 
     def servos(self) -> dict[str, Servo]:
@@ -104,6 +117,7 @@ class Measuring:
                 neutral_us=self.neutral_us,
                 max_us=self.found.get("full forward", throttle.max_us),
                 dead_zone_us=self._dead_zone_us,
+                reverse=self._reverse or throttle.reverse,
             ),
             "steering": replace(
                 steering,
@@ -140,6 +154,14 @@ class Measuring:
     @property
     def _straight_us(self) -> float:
         return self.found.get("straight", self._before["steering"].neutral_us)
+
+    def _go_to(self, number: int) -> None:
+        self._number, self._ways = number, [0.0]
+
+    def _was_there(self, pulse_us: float) -> bool:
+        """Say whether the pulse was as far to that side before, and has been neutral since."""
+        off = pulse_us - self.neutral_us
+        return any(way * off > 0 and abs(way) > abs(off) - self._tick_us for way in self._ways[:-1])
 
     def _wrong(self, pulse_us: float) -> str:
         """Return why a pulse is no answer to the step, and what to do; nothing where it may be one."""

@@ -1,12 +1,15 @@
 """One channel's calibration: a fraction of full range to a pulse width and back."""
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from msgspec import Meta, Struct
 
 from zteleop.messages import Channel
 
 PulseWidth = Annotated[float, Meta(ge=500, le=2500)]
+Reverse = Literal["direct", "double_tap", "none"]
+"""What an ESC makes of pulses below neutral: drives backward; brakes, and drives when they come again after
+neutral; only brakes."""
 
 
 class Servo(Struct, frozen=True, forbid_unknown_fields=True):
@@ -20,6 +23,8 @@ class Servo(Struct, frozen=True, forbid_unknown_fields=True):
     """To either side of neutral, where a motor does not turn yet; steps begin beyond it."""
     slew_rate: Annotated[float, Meta(gt=0)] | None = None
     """Fractions of full range a second; None is as fast as it can."""
+    reverse: Reverse = "direct"
+    """As on crawlers; most cars' ESCs want to be tapped twice, which is done for whoever asks for a speed."""
 
     def __post_init__(self) -> None:
         if not min(self.min_us, self.max_us) < self.neutral_us < max(self.min_us, self.max_us):

@@ -51,6 +51,9 @@ class DriveSettings(Struct, frozen=True, forbid_unknown_fields=True):
         channels = [servo.channel for servo in self.servos.values()]
         if len(set(channels)) < len(channels):
             raise ValueError(f"each servo needs a channel of its own, found {channels}")
+        for name in self.mixer.wheels - self.mixer.driven:
+            if self.servos[name].reverse != "direct":
+                raise ValueError(f"reverse is for what drives, found it at servos.{name}")
         for name, source in self.sources.items():
             if source.resume and source.trust != "arrival":
                 raise ValueError(f'resume is for trust = "arrival", found it at sources.{name}')

@@ -83,6 +83,8 @@ class Tuner(Keyboard):
     def see(self, out: Sequence[Pulse]) -> None:
         """Take in what leaves the chip."""
         self._out = {pulse.name: pulse for pulse in out}
+        if "throttle" in self._out:
+            self._measuring.see(self._out["throttle"].pulse_us)
 
     def fit(self, vehicle: Vehicle) -> None:
         """Learn the limits of the robot driven."""

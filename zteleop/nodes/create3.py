@@ -7,6 +7,7 @@ from zteleop.bus.node import Node
 from zteleop.messages import (
     AudioNoteVector,
     BatteryState,
+    Bool,
     DockStatus,
     HazardDetectionVector,
     Header,
@@ -56,6 +57,7 @@ class Equipment:
         self._world = world
         self._unit = unit or Inertial()
         self._buttons = Buttons()
+        self._switched: dict[Name, bool] = {}
         self._battery = Battery(PACK)
         self._lights = Lightring()
         self._notes = Notes()
@@ -67,7 +69,8 @@ class Equipment:
     def _listen(self) -> None:
         node = self._node
         for name in NAMES:
-            node.service(name, SetBoolRequest, SetBoolResponse, partial(self._press, name))
+            node.service(name, SetBoolRequest, SetBoolResponse, partial(self._answer, name))
+            node.on(name, Bool)(partial(self._switch, name))
         node.subscription("cmd_lightring", LightringLeds, lambda heard: self._light(heard.message))
         node.subscription("cmd_audio", AudioNoteVector, lambda heard: self._notes.hear(heard.message))
 
@@ -118,13 +121,24 @@ class Equipment:
             self._node.log.warn(NO_FARTHER)
         self._limited = is_reached
 
-    def _press(self, name: Name, request: SetBoolRequest) -> SetBoolResponse:
+    def _answer(self, name: Name, request: SetBoolRequest) -> SetBoolResponse:
         """Press a button, or let it go, for whoever has no finger on the robot."""
-        down = "down" if request.data else "up"
-        if not self._buttons.press(name, request.data, clock.stamp()):
-            return SetBoolResponse(False, f"{name} is {down} already")
+        pressed = self._press(name, request.data)
+        already = "" if pressed else " already"
+        return SetBoolResponse(pressed, f"{name} is {'down' if request.data else 'up'}{already}")
+
+    def _switch(self, name: Name, said: Bool) -> None:
+        """Follow a switch on some keyboard, which says once a second how it stands."""
+        if self._switched.get(name, False) != said.data:
+            self._switched[name] = said.data
+            self._press(name, said.data)
+
+    def _press(self, name: Name, down: bool) -> bool:
+        """Press a button, or let it go; False when it is so already."""
+        if not self._buttons.press(name, down, clock.stamp()):
+            return False
         self._presses.publish(self._buttons.message(clock.stamp()))
-        return SetBoolResponse(True, f"{name} is {down}")
+        return True
 
     def _light(self, message: LightringLeds) -> None:
         """Show what is told, in words: a simulated ring is seen nowhere else yet."""

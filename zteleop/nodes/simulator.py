@@ -14,9 +14,11 @@ from zteleop.drivers.registers import read_pulse_us
 from zteleop.drivers.simulated import open_registers
 from zteleop.errors import ConfigError
 from zteleop.messages import Header, Odometry, Range, String
+from zteleop.nodes.battery import give_power
 from zteleop.nodes.create3 import Equipment
 from zteleop.nodes.picture import take_pictures
 from zteleop.sim import make_vehicle
+from zteleop.sim.battery import Battery, BatterySettings
 from zteleop.sim.body import Body
 from zteleop.sim.camera import Camera
 from zteleop.sim.car import Car
@@ -53,6 +55,8 @@ class Simulated(NamedTuple):
     """its servo and its ESC are not what the settings say"""
     camera: bool = False
     """it has one, and says what that sees"""
+    charge: float = 1.0
+    """of its battery at the start; a Create 3's is full"""
 
 
 def run(
@@ -81,6 +85,8 @@ def run(
         take_pictures(node, Camera(simulated.scene or Scene()), world)
     if isinstance(vehicle, Create3):
         Equipment(node, vehicle, world, Inertial(simulated.noise, Random(simulated.seed)))
+    else:
+        give_power(node, vehicle, Battery(BatterySettings(percentage=simulated.charge)))
     registers = open_registers(path)
     odoms = node.publisher("odom", Odometry)
     channels = [servo.channel for servo in settings.servos.values()]

@@ -50,6 +50,8 @@ class Body(ABC):
         self.heading = 0.0
         self.speed = 0.0
         self.yaw_rate = 0.0
+        self.power = 1.0
+        """Share of full speed that its battery is good for."""
         self.distance = 0.0
         """m rolled since the start, back and forth."""
         self.odometer = Odometer()

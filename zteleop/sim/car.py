@@ -39,7 +39,8 @@ class Car(Body):
         """Turn the front wheels and the motor towards what the pulses ask for."""
         self._steer(pulse_us.get(self._steering.channel), dt)
         pulse = pulse_us.get(self._throttle.channel)
-        self.speed = self._esc.drive(self.speed, self._throttle, pulse, self._mixer.max_speed, dt)
+        most = self._mixer.max_speed * self.power
+        self.speed = self._esc.drive(self.speed, self._throttle, pulse, most, dt)
         self.yaw_rate = self._held(self.speed * tan(self.steering_angle) / self._mixer.wheelbase)
 
     def _held(self, yaw_rate: float) -> float:

@@ -1,13 +1,11 @@
 """An electronic speed controller and its motor: from a pulse to the speed of a wheel."""
 
-from typing import Annotated, Literal
+from typing import Annotated
 
 from msgspec import Meta, Struct
 
-from zteleop.control.servo import Servo
+from zteleop.control.servo import Reverse, Servo
 
-Reverse = Literal["direct", "double_tap", "none"]
-"""What a pulse below neutral does: drive backward; brake, and drive when it comes again; only brake."""
 NotNegative = Annotated[float, Meta(ge=0, le=1000)]
 SHORTEST_US, LONGEST_US = 500.0, 2500.0
 
@@ -21,8 +19,8 @@ class EscSettings(Struct, frozen=True, forbid_unknown_fields=True):
     """m/s^2 that stop a wheel nobody drives, beside the motor's drag."""
     grip: Annotated[float, Meta(gt=0, le=100)] = 6.0
     """m/s^2 that the tyres can take."""
-    reverse: Reverse = "direct"
-    """as on crawlers; most cars' are `double_tap`"""
+    reverse: Reverse | None = None
+    """What a pulse below neutral does; None is what the servo's settings say."""
 
     def throttle(self, servo: Servo, pulse_us: float | None) -> float:
         """Return the fraction, -1..1, that the motor is told; 0 without a pulse, as at neutral."""
@@ -48,24 +46,24 @@ class Esc:
         self._settings = settings
         self._braked = False
         """below neutral since it was last above"""
-        self._reverses = settings.reverse == "direct"
+        self._tapped = False
+        """and at neutral after that"""
 
     def drive(self, speed: float, servo: Servo, pulse_us: float | None, most: float, dt: float) -> float:
         """Return the speed in m/s of a wheel after `dt` s of a pulse; `most` is at full throttle."""
         settings, throttle = self._settings, self._settings.throttle(servo, pulse_us)
         self._note(throttle)
-        if throttle < 0 and not self._reverses:
+        style = settings.reverse or servo.reverse
+        if throttle < 0 and (style == "none" or (style == "double_tap" and not self._tapped)):
             slower = settings.grip * dt
             return max(0.0, speed - slower) if speed > 0 else min(0.0, speed + slower)
         return settings.spin(speed, throttle * most, dt)
 
     def _note(self, throttle: float) -> None:
-        if self._settings.reverse != "double_tap":
-            return
         if throttle > 0:
-            self._braked = self._reverses = False
+            self._braked = self._tapped = False
         elif throttle == 0:
-            self._reverses = self._braked
+            self._tapped = self._braked
         else:
             self._braked = True
 

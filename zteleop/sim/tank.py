@@ -26,8 +26,9 @@ class Tank(Body):
 
     def move(self, pulse_us: Pulses, dt: float) -> None:
         """Turn both wheels towards what their pulses ask for."""
+        most = self._mixer.max_speed * self.power
         left, right = (
-            esc.drive(speed, servo, pulse_us.get(servo.channel), self._mixer.max_speed, dt)
+            esc.drive(speed, servo, pulse_us.get(servo.channel), most, dt)
             for esc, servo, speed in zip(self._escs, self._servos, self.wheel_speeds, strict=True)
         )
         self.wheel_speeds = left, right

@@ -4,9 +4,8 @@ from collections.abc import Mapping
 from random import Random
 from typing import NamedTuple
 
-from zteleop.control.servo import Servo
+from zteleop.control.servo import Reverse, Servo
 from zteleop.sim.car import CarSettings
-from zteleop.sim.esc import Reverse
 
 STRAIGHT_OFF, NEUTRAL_OFF = 60.0, 30.0
 """us, at most, by which neutral is somewhere else"""

@@ -48,6 +48,14 @@ def test_a_node_of_a_robot_is_present_and_can_speak(node: Node, session: Session
     assert list(session.outlets) == ["robot/archangel/log"]
 
 
+def test_a_node_with_a_bad_link_says_nothing_on_a_better_one(node: Node, session: Session) -> None:
+    worse = Outlet()
+    node.membership.link = lambda outlet: worse
+    node.publisher("chatter", String).publish(String("hello"))
+    assert len(worse.puts) == 1
+    assert said(session, "robot/archangel/chatter").puts == []
+
+
 def test_a_node_without_a_robot_is_nobodys(stranger: Node, session: Session) -> None:
     assert session.alive == []
     stranger.log.warn("smells odd")

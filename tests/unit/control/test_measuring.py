@@ -3,6 +3,7 @@
 from random import Random
 
 import pytest
+from msgspec.structs import replace
 
 from zteleop.control.measuring import MOTOR_FIRST, STEPS, WIDEST, Measuring
 from zteleop.control.settings import DONKEYCAR
@@ -152,3 +153,50 @@ def test_whoever_sees_the_wheels_of_an_unknown_car_finds_it_within_two_ticks(see
         for field in ("min_us", "neutral_us", "max_us"):
             assert abs(getattr(found[name], field) - getattr(servo, field)) <= 2 * TICK
     assert abs(found["throttle"].dead_zone_us - settings.esc_deadband_us) <= TICK
+
+
+def gone_through(measuring: Measuring, *pulses: float) -> Measuring:
+    for pulse in pulses:
+        measuring.see(pulse)
+    return measuring
+
+
+NEUTRAL = DONKEYCAR["throttle"].neutral_us
+BACK = FOUND["reverse starts"]
+
+
+@pytest.mark.parametrize(
+    ("pulses", "reverse"),
+    [
+        ((NEUTRAL, 1495, BACK), "direct"),
+        ((NEUTRAL, BACK - 30, NEUTRAL, 1495, BACK), "double_tap"),
+        ((NEUTRAL, BACK, NEUTRAL, BACK), "double_tap"),
+        ((NEUTRAL, 1560, NEUTRAL, BACK), "direct"),
+        ((NEUTRAL, 1495, NEUTRAL, BACK), "direct"),
+    ],
+    ids=["at once", "the second time", "as far", "forward before", "less far before"],
+)
+def test_an_esc_brakes_first_where_the_wheels_turned_back_only_the_second_time(
+    pulses: tuple[float, ...], reverse: str
+) -> None:
+    measuring = gone_through(at("reverse starts"), *pulses)
+    assert measuring.take(BACK) == ""
+    assert measuring.servos()["throttle"].reverse == reverse
+
+
+def test_what_was_gone_through_before_the_step_or_before_going_back_to_it_does_not_count() -> None:
+    measuring = gone_through(at("forward starts"), BACK, NEUTRAL)
+    measuring.take(FOUND["forward starts"])
+    gone_through(measuring, BACK, NEUTRAL)
+    measuring.back()
+    measuring.take(FOUND["forward starts"])
+    gone_through(measuring, BACK).take(BACK)
+    assert measuring.servos()["throttle"].reverse == "direct"
+
+
+def test_an_esc_of_which_nothing_was_found_is_what_it_was() -> None:
+    throttle = replace(DONKEYCAR["throttle"], reverse="none")
+    measuring = Measuring(DONKEYCAR | {"throttle": throttle}, TICK)
+    measuring.skip()
+    measuring.skip()
+    assert measuring.servos()["throttle"].reverse == "none"

@@ -111,6 +111,15 @@ def test_what_the_chip_does_not_put_out_is_no_answer(hand: Hand) -> None:
     assert "forward starts" in hand.measuring.found
 
 
+def test_an_esc_is_seen_to_brake_first(hand: Hand) -> None:
+    hand.type(FAR_UP)
+    hand.type(ENTER)
+    for keys in (FAR_DOWN, b" ", FAR_DOWN):
+        hand.type(keys)
+    hand.type(ENTER)
+    assert hand.measuring.servos()["throttle"].reverse == "double_tap"
+
+
 def test_a_robot_that_is_not_heard_answers_nothing(hand: Hand) -> None:
     hand.type(UP)
     hand.tuner.see(())
