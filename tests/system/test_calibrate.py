@@ -129,6 +129,23 @@ def test_whoever_follows_the_page_drives_a_circle_with_a_car_that_nobody_knew(ri
     assert float(way[1]) > 0.4
 
 
+def test_a_car_is_trimmed_while_it_drives_until_it_goes_straight(rig: Rig) -> None:
+    screen = rig.terminal("calibrate", "--trim", *where(rig), columns=100, rows=30)
+    screen.shows("1 of 1", "up and down drive, left and right turn the steering", " idle")
+    screen.type(UP)
+    until(lambda: (rig.ticks[THROTTLE] or 0) > NEUTRAL[THROTTLE] + 3, "it drives, beyond the dead zone")
+    screen.type(RIGHT * 3)
+    until(lambda: rig.ticks[STEERING] == NEUTRAL[STEERING] - 3, "three ticks to the right")
+    screen.shows("m/s", f"steering {NEUTRAL[STEERING] - 3}")
+    screen.type(ENTER)
+    assert screen.ends() == 0
+    assert rig.ticks == tuple(NEUTRAL), "it stands"
+    servos = msgspec.toml.decode((rig.folder / "config.toml").read_bytes())["drive"]["servos"]
+    assert servos["steering"]["neutral_us"] == pytest.approx((NEUTRAL[STEERING] - 3) * TICK, abs=0.1)
+    for name, field in (("steering", "min_us"), ("steering", "max_us"), ("throttle", "neutral_us")):
+        assert servos[name][field] == pytest.approx(getattr(DONKEYCAR[name], field), abs=0.1)
+
+
 def test_what_is_not_finished_is_not_written(rig: Rig) -> None:
     before = (rig.folder / "config.toml").read_text()
     sitting = Sitting(rig)

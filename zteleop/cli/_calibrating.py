@@ -1,7 +1,7 @@
 """A robot whose servos may turn as far as any, and somebody who watches the wheels and answers."""
 
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
@@ -15,7 +15,7 @@ from zteleop.cli._driving import drive_at_terminal
 from zteleop.cli._scratch import scratch
 from zteleop.cli._settings_file import SettingsFile, of_servos
 from zteleop.config import Config
-from zteleop.control.measuring import STEPS, Measuring
+from zteleop.control.measuring import STEPS, Measuring, Step
 from zteleop.control.servo import Servo
 from zteleop.drivers import open_driver
 from zteleop.errors import BusError, ConfigError
@@ -40,24 +40,26 @@ CREEP = SLOW / 1000
 """m/s: so little of a wide servo is within the dead zone of any motor"""
 
 
-def find_out(file: SettingsFile, settings: Config, robot: str) -> dict[str, Servo] | None:
-    """Return both servos as somebody found them; None when he left before the end.
+def find_out(
+    file: SettingsFile, settings: Config, robot: str, steps: Sequence[Step] = STEPS
+) -> dict[str, Servo] | None:
+    """Return both servos as somebody found them in these steps; None when he left before the end.
 
     Raises BusError when the robot does not start, ConfigError when what was found makes no servo.
     """
     chip = settings.driver_settings(settings.driver, robot)
     open_driver(settings.driver, chip).close()  # which fails where somebody else drives it
-    measuring = Measuring(settings.drive.servos, settings.tick_us)
+    measuring = Measuring(settings.drive.servos, settings.tick_us, steps)
     while True:
         with running(file, settings, robot, measuring) as node:
             tuner = Tuner(Typed(open_terminal()), measuring)
             known = Dashboard(robot, "step", settings.speeds, bound=tuner.bound, steps=TICK)
             drive_at_terminal(
-                node, settings, tuner, SOURCE, known, watch=seen_by(tuner), task=asked_by(tuner)
+                node, settings, tuner, SOURCE, known, watch=seen_by(tuner), task=asked_by(tuner, measuring)
             )
         if tuner.gave_up:
             return None
-        if measuring.number == len(STEPS):
+        if measuring.is_done:
             break
         print(KNOWN, file=sys.stderr, flush=True)
         measuring.go_on()
@@ -76,9 +78,9 @@ def seen_by(tuner: Tuner) -> Callable[[View], None]:
     return see
 
 
-def asked_by(tuner: Tuner) -> Callable[[], Task]:
+def asked_by(tuner: Tuner, measuring: Measuring) -> Callable[[], Task]:
     """Return what tells a screen what is asked for."""
-    return lambda: Task(tuner.task(), unmeasured=True)
+    return lambda: Task(tuner.task(), unmeasured=not measuring.step.drives)
 
 
 @contextmanager
@@ -104,14 +106,15 @@ def running(file: SettingsFile, settings: Config, robot: str, measuring: Measuri
 
 def wide(file: SettingsFile, settings: Config, robot: str, measuring: Measuring) -> str:
     """Return the text of a config that is the robot's, but for how far its servos turn."""
-    bus = settings.bus
+    bus, lifted = settings.bus, not measuring.step.drives
     changes: dict[tuple[str, ...], Any] = {
         **of_servos(measuring.wide()),
         ("drive", "mixer", "kind"): settings.drive.mixer.kind,
-        ("drive", "mixer", "max_speed"): SLOW,
         **{("bus", name): getattr(bus, name) for name in ("mode", "connect", "listen", "multicast")},
     }
-    for name, source in settings.drive.known_sources.items():
+    if lifted:
+        changes["drive", "mixer", "max_speed"] = SLOW
+    for name, source in settings.drive.known_sources.items() if lifted else ():
         if name != SOURCE:  # a program that was left running turns no motor now
             changes["drive", "sources", name, "priority"] = source.priority
             changes["drive", "sources", name, "max_speed"] = CREEP

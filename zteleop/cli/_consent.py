@@ -4,16 +4,19 @@ import sys
 
 from zteleop.errors import ConfigError
 
-CONSENT = "wheels up"
+WHEELS_UP = ("Lift them off the ground and hold nothing near them.", "wheels up")
+ROOM_AHEAD = ("Put it on the floor, with some metres of room, and stay beside it.", "room ahead")
+"""what to do, and what is typed once that is done"""
 
 
-def ask_consent(words: str) -> None:
+def ask_consent(words: str, asked: tuple[str, str] = WHEELS_UP) -> None:
     """Say what is about to happen, and wait for the answer; raises ConfigError for any other."""
+    do, consent = asked
     print(
-        f"{words}\nLift them off the ground and hold nothing near them. Type {CONSENT!r} to go on: ",
+        f"{words}\n{do} Type {consent!r} to go on: ",
         end="",
         file=sys.stderr,
         flush=True,
     )
-    if sys.stdin.readline().strip() != CONSENT:
-        raise ConfigError(f"nothing was done: expected the words {CONSENT!r}")
+    if sys.stdin.readline().strip() != consent:
+        raise ConfigError(f"nothing was done: expected the words {consent!r}")

@@ -4,9 +4,11 @@ from pathlib import Path
 from zteleop import config
 from zteleop.cli import _options
 from zteleop.cli._calibrating import find_out
-from zteleop.cli._consent import ask_consent
+from zteleop.cli._consent import ROOM_AHEAD, ask_consent
 from zteleop.cli._donkeycar import export, imported
+from zteleop.cli._oscillator import measured
 from zteleop.cli._settings_file import Changes, SettingsFile, editor, of_servos, pulses_told
+from zteleop.control.measuring import STEPS, TRIM
 from zteleop.errors import ConfigError
 from zteleop.terminal.typed import open_terminal
 
@@ -18,18 +20,27 @@ EXAMPLES = (
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add(parser)
-    donkeycar = parser.add_mutually_exclusive_group()
-    donkeycar.add_argument(
+    instead = parser.add_mutually_exclusive_group()
+    instead.add_argument(
         "--from-donkeycar",
         metavar="FILE",
         type=Path,
         help="turn nothing: take the calibration of a config.py, and of the myconfig.py beside it",
     )
-    donkeycar.add_argument(
+    instead.add_argument(
         "--to-donkeycar",
         metavar="FILE",
         type=Path,
         help="turn nothing: write the calibration as a myconfig.py",
+    )
+    instead.add_argument(
+        "--meter",
+        metavar="HZ",
+        type=float,
+        help="turn nothing: what a meter shows at a channel while the actuator runs makes its oscillator",
+    )
+    instead.add_argument(
+        "--trim", action="store_true", help="drive on the floor, and find out only where it steers straight"
     )
     parser.add_argument("--dry-run", action="store_true", help="write nothing: show what would change")
 
@@ -43,6 +54,9 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.from_donkeycar:
         keep(file, dict(imported(file.settings, arguments.from_donkeycar)), arguments.dry_run)
         return 0
+    if arguments.meter:
+        keep(file, dict(measured(file.settings, arguments.meter)), arguments.dry_run)
+        return 0
     settings = _options.with_typed(arguments, file.settings)
     if not settings.drive.mixer.takes_ticks:
         raise ConfigError(
@@ -53,10 +67,12 @@ def run(arguments: argparse.Namespace) -> int:
     editor()
     open_terminal()  # what is missing is said before anything turns
     if settings.driver != "simulated":
-        ask_consent(
-            f"This turns the steering and the motor on the {settings.driver}, as far as the keys say."
-        )
-    found = find_out(file, settings, robot)
+        where = f"on the {settings.driver}, as far as the keys say"
+        if arguments.trim:
+            ask_consent(f"This drives the car {where}.", ROOM_AHEAD)
+        else:
+            ask_consent(f"This turns the steering and the motor {where}.")
+    found = find_out(file, settings, robot, TRIM if arguments.trim else STEPS)
     if found is None:
         print(f"left before the end: {file.path} is as it was")
         return 1

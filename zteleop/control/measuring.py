@@ -1,6 +1,6 @@
 """What somebody who watches the wheels finds out, one step after another, and the servos it makes."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Literal, NamedTuple
 
 from msgspec.structs import replace
@@ -23,6 +23,8 @@ class Step(NamedTuple):
     find: Find
     axis: Axis
     asks: str
+    drives: bool = False
+    """the wheels are on the floor: the other servo is turned as well, and both no farther than is known"""
 
 
 STEPS = (
@@ -36,19 +38,21 @@ STEPS = (
     Step("full forward", "throttle", "the wheels turn forward as fast as they ever should"),
     Step("full reverse", "throttle", "the wheels turn backward as fast as they ever should"),
 )
+TRIM = (Step("straight", "steering", "the car drives straight on", drives=True),)
 MOTOR_FIRST = 2
 """steps after which neutral is known: until then the wheels may turn at what is taken for it"""
 
 
 class Measuring:
-    """Goes through the steps; `servos` are what is known before, `tick_us` is the chip's."""
+    """Goes through steps; `servos` are what is known before, `tick_us` is the chip's."""
 
-    def __init__(self, servos: Mapping[str, Servo], tick_us: float) -> None:
+    def __init__(self, servos: Mapping[str, Servo], tick_us: float, steps: Sequence[Step] = STEPS) -> None:
+        self.steps = steps
         self._before = servos
         self._tick_us = tick_us
         self._number = 0
         self._first = 0
-        self._end = MOTOR_FIRST
+        self._end = min(MOTOR_FIRST, len(steps))
         self.found: dict[Find, float] = {}
         """us, by what was asked for"""
         self._ways = [0.0]
@@ -63,16 +67,21 @@ class Measuring:
     @property
     def step(self) -> Step:
         """What is asked for."""
-        return STEPS[min(self._number, len(STEPS) - 1)]
+        return self.steps[min(self._number, len(self.steps) - 1)]
 
     @property
     def is_over(self) -> bool:
         """Every step of this part was answered or left as it was."""
         return self._number >= self._end
 
+    @property
+    def is_done(self) -> bool:
+        """Nothing more is to be asked for."""
+        return self._number == len(self.steps)
+
     def go_on(self) -> None:
         """Begin the second part, with neutral known; what was found before cannot be changed any more."""
-        self._first, self._end = MOTOR_FIRST, len(STEPS)
+        self._first, self._end = MOTOR_FIRST, len(self.steps)
 
     def see(self, throttle_us: float) -> None:
         """Take in what leaves the chip for the motor: an ESC that brakes first has to be told twice."""
@@ -128,7 +137,12 @@ class Measuring:
         }
 
     def wide(self) -> dict[str, Servo]:
-        """Return both servos as they may be turned now: as far as any, about the neutral that is known."""
+        """Return both servos as they may be turned now: as far as any, about the neutral that is known.
+
+        On the floor no farther than before.
+        """
+        if self.step.drives:
+            return dict(self._before)
         neutral = {"throttle": self.neutral_us, "steering": self._straight_us}
         wide = {}
         for name, servo in self._before.items():

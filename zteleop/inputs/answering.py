@@ -20,6 +20,8 @@ class Answering:
         self._keys = keys
         self.terminal: AnyTerminal = keys.terminal
         self.axis: Axis = "throttle"
+        self.drives = False
+        """the other servo is turned as well"""
         self.answers: list[str] = []
         """typed since they were last taken"""
 
@@ -63,5 +65,5 @@ class Answering:
         turns = TURNS[self.axis]
         if key.name in FAR:
             return [key._replace(name=turns[FAR.index(key.name)])] * TEN if key.event != "release" else []
-        others = {name for names in TURNS.values() for name in names} - {*turns}
+        others = set() if self.drives else {name for names in TURNS.values() for name in names} - {*turns}
         return [] if key.name in others else [key]

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 
-from zteleop.control.measuring import STEPS, Measuring
+from zteleop.control.measuring import Measuring
 from zteleop.control.stick import neutral_pwm, to_pwm
 from zteleop.inputs.answering import ANSWERS, FAR, TURNS, Answering
 from zteleop.inputs.keyboard import Keyboard
@@ -29,7 +29,7 @@ class Tuner(Keyboard):
         self._turned = False
         """by this step"""
         self._note = ""
-        self._answering.axis = measuring.step.axis
+        self._answering.axis, self._answering.drives = measuring.step.axis, measuring.step.drives
 
     @property
     def gave_up(self) -> bool:
@@ -74,8 +74,10 @@ class Tuner(Keyboard):
         """Return what is asked for."""
         step = self._measuring.step
         one, other = TURNS[step.axis]
-        number = f"{min(self._measuring.number + 1, len(STEPS))} of {len(STEPS)}"
-        words = [(number, f"{one} and {other} turn the {step.axis}. Press enter when {step.asks}.")]
+        steps = len(self._measuring.steps)
+        number = f"{min(self._measuring.number + 1, steps)} of {steps}"
+        drives = "up and down drive, " if step.drives else ""
+        words = [(number, f"{drives}{one} and {other} turn the {step.axis}. Press enter when {step.asks}.")]
         if step.find in BACKWARD:
             words.append(("", "many an ESC brakes first: then space, and down once more"))
         return [*words, ("", f"{', '.join(FAR)}: ten ticks; k keeps it there; s: as it was; b: back")]

@@ -5,7 +5,7 @@ from random import Random
 import pytest
 from msgspec.structs import replace
 
-from zteleop.control.measuring import MOTOR_FIRST, STEPS, WIDEST, Measuring
+from zteleop.control.measuring import MOTOR_FIRST, STEPS, TRIM, WIDEST, Measuring
 from zteleop.control.settings import DONKEYCAR
 from zteleop.sim.unknown import unknown
 
@@ -200,3 +200,14 @@ def test_an_esc_of_which_nothing_was_found_is_what_it_was() -> None:
     measuring.skip()
     measuring.skip()
     assert measuring.servos()["throttle"].reverse == "none"
+
+
+def test_a_trim_is_one_step_with_the_servos_as_they_are() -> None:
+    measuring = Measuring(DONKEYCAR, TICK, TRIM)
+    assert measuring.wide() == DONKEYCAR
+    assert measuring.take(1540.0) == ""
+    assert measuring.is_over
+    assert measuring.is_done
+    steering = measuring.servos()["steering"]
+    assert steering == replace(DONKEYCAR["steering"], neutral_us=1540.0)
+    assert measuring.servos()["throttle"] == DONKEYCAR["throttle"]
