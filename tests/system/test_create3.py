@@ -204,7 +204,15 @@ def test_a_key_of_an_operator_presses_a_button_and_lets_it_go(rig: Rig, node: No
     hear(presses, lambda seen: seen.button_1.is_pressed and not seen.button_2.is_pressed, "it is down")
     said = ask(rig, "service call", "button_1", "std_srvs/srv/SetBool", "{data: true}")
     assert "button_1 is down already" in said
+    hear(presses, lambda seen: seen.button_1.last_pressed_duration.sec >= 1, "no repeat of a key any more")
     screen.type("1")
     hear(presses, lambda seen: not seen.button_1.is_pressed, "it is up")
+    ask(rig, "service call", "button_1", "std_srvs/srv/SetBool", "{data: true}")
+    hear(presses, lambda seen: seen.button_1.is_pressed, "somebody else presses it")
+    hear(
+        presses,
+        lambda seen: seen.button_1.is_pressed and seen.button_1.last_pressed_duration.sec >= 2,
+        "what is said once a second, that the switch is off, lets nobody's button go",
+    )
     screen.type("q")
     assert screen.ends() == 0

@@ -78,13 +78,15 @@ def test_latency_follows_a_program_from_the_robots_door_to_its_chip(rig: Rig) ->
 
 
 def test_a_simulator_on_a_bad_radio_is_heard_late(rig: Rig) -> None:
-    rig.join("sim", "--latency", "300ms", "--loss", "20%").says("moves bench")
+    sim = rig.join("sim", "--latency", "300ms", "--loss", "20%")
+    sim.says("moves bench")
     delay = rig.join("delay", "odom")
     until(lambda: re.search(r"average delay: 0\.3", delay.text), "odometry that is 0.3 s old")
     with_losses = rig.join("hz", "odom")
     until(lambda: re.search(r"average rate: 1[4-8]\.", with_losses.text), "four of five of 20 a second")
     for process in (delay, with_losses):
         ended(process)
+    ended(sim)
 
 
 MEASURES = {

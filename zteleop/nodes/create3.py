@@ -4,6 +4,7 @@ from functools import partial
 
 from zteleop.bus import clock
 from zteleop.bus.node import Node
+from zteleop.bus.subscription import Received
 from zteleop.messages import (
     AudioNoteVector,
     BatteryState,
@@ -70,7 +71,7 @@ class Equipment:
         node = self._node
         for name in NAMES:
             node.service(name, SetBoolRequest, SetBoolResponse, partial(self._answer, name))
-            node.on(name, Bool)(partial(self._switch, name))
+            node.subscription(name, Bool, partial(self._switch, name))
         node.subscription("cmd_lightring", LightringLeds, lambda heard: self._light(heard.message))
         node.subscription("cmd_audio", AudioNoteVector, lambda heard: self._notes.hear(heard.message))
 
@@ -127,11 +128,11 @@ class Equipment:
         already = "" if pressed else " already"
         return SetBoolResponse(pressed, f"{name} is {'down' if request.data else 'up'}{already}")
 
-    def _switch(self, name: Name, said: Bool) -> None:
+    def _switch(self, name: Name, heard: Received[Bool]) -> None:
         """Follow a switch on some keyboard, which says once a second how it stands."""
-        if self._switched.get(name, False) != said.data:
-            self._switched[name] = said.data
-            self._press(name, said.data)
+        if self._switched.get(name, False) != (down := heard.message.data):
+            self._switched[name] = down
+            self._press(name, down)
 
     def _press(self, name: Name, down: bool) -> bool:
         """Press a button, or let it go; False when it is so already."""

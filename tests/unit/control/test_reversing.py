@@ -12,6 +12,7 @@ from zteleop.control.proof import Prover
 from zteleop.control.reversing import BRAKES, RESTS, Reversing
 from zteleop.control.servo import Reverse, Servo
 from zteleop.control.settings import DONKEYCAR, DriveSettings
+from zteleop.control.vehicles import VEHICLES
 from zteleop.messages import Pwm, Twist
 from zteleop.sim import make_vehicle
 
@@ -78,15 +79,15 @@ def test_it_is_never_told_anything_but_what_is_asked_for_or_neutral(asked: list[
 class Car:
     """A car whose ESC is of some kind, and somebody who drives it."""
 
-    def __init__(self, reverse: Reverse) -> None:
+    def __init__(self, reverse: Reverse, settings: DriveSettings | None = None) -> None:
         servos = DONKEYCAR | {"throttle": replace(THROTTLE, reverse=reverse)}
-        settings = DriveSettings(servos=servos)
+        settings = settings or DriveSettings(servos=servos)
         self.drive = Drive(settings, 4.08, 1, 0.0)
-        self.body = make_vehicle(settings.mixer, servos)
+        self.body = make_vehicle(settings.mixer, settings.servos)
         self.prover, self.now = Prover(7), 0.0
 
-    def obey(self, seconds: float, command: Twist | Pwm | None) -> list[float]:
-        """Command something for so many s; return the throttle's pulses."""
+    def obey(self, seconds: float, command: Twist | Pwm | None, channel: int = 0) -> list[float]:
+        """Command something for so many s; return the pulses of a channel."""
         found = []
         for _ in range(round(seconds / STEP)):
             self.now += STEP
@@ -97,7 +98,7 @@ class Car:
                 assert self.drive.receive("keyboard", command, proof, self.now) is None
             pulse_us = self.drive.step(self.now).pulse_us
             self.body.move(pulse_us, STEP)
-            found.append(pulse_us[0])
+            found.append(pulse_us[channel])
         return found
 
 
@@ -116,6 +117,18 @@ def test_after_the_second_tap_it_speeds_up_as_slowly_as_any() -> None:
     most = 3.0 / 3.0 * STEP * (THROTTLE.neutral_us - THROTTLE.min_us)
     again = pulses[pulses.index(THROTTLE.neutral_us, 3) :]
     assert min(after - before for before, after in pairwise(again)) >= -most - 0.1
+
+
+def test_a_tank_speeds_up_as_slowly_as_any_too() -> None:
+    built = VEHICLES["tank"]
+    servos = {name: replace(servo, reverse="double_tap") for name, servo in built.servos.items()}
+    car = Car("double_tap", DriveSettings(mixer=built.mixer, servos=servos))
+    left = servos["left"]
+    speeds = [left.fraction(pulse) * built.mixer.max_speed for pulse in car.obey(1.0, Twist.planar(-1.0), 0)]
+    assert speeds[-1] < -0.5
+    again = speeds[speeds.index(0.0, 3) :]
+    most = car.drive.settings.limits.acceleration * STEP
+    assert min(after - before for before, after in pairwise(again)) >= -most - 0.01
 
 
 def test_ticks_are_told_as_they_are() -> None:

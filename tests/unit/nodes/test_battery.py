@@ -2,7 +2,9 @@ import pytest
 
 from zteleop.control.mixer import Ackermann
 from zteleop.control.settings import DONKEYCAR
+from zteleop.control.vehicles import VEHICLES
 from zteleop.nodes.battery import LOW, give_power
+from zteleop.sim import make_vehicle
 from zteleop.sim.battery import Battery, BatterySettings
 from zteleop.sim.car import Car
 from zteleop.testing import Clock, FakeNode
@@ -39,6 +41,16 @@ def test_the_emptier_it_is_the_slower_the_car_and_at_last_it_stands(node: FakeNo
     node.warnings.clear()
     assert drive(node, 0.001, 20).speed == 0.0
     assert "archangel's battery is empty, and its motors stand" in node.warnings[-1]
+
+
+def test_a_tank_with_half_of_its_voltage_is_half_as_fast() -> None:
+    built = VEHICLES["tank"]
+    tank = make_vehicle(built.mixer, built.servos)
+    tank.power = 0.5
+    full = {servo.channel: servo.max_us for servo in built.servos.values()}
+    for _ in range(300):
+        tank.step(full, 0.01)
+    assert tank.speed == pytest.approx(built.mixer.max_speed / 2, rel=0.01)
 
 
 def test_it_runs_down_in_the_better_part_of_an_hour_at_full_speed(node: FakeNode) -> None:
