@@ -162,6 +162,8 @@ class Ticks:
     def _tick(self, period: float) -> None:
         while not self._ended.wait(period):
             self._heard.clear()
+            if self._ended.is_set():  # it was just now, and what that set besides is cleared again
+                return
             os.write(self._bell, b".")
             self._heard.wait()  # one at a time: whoever stands still is not flooded
 

@@ -157,3 +157,19 @@ def test_ticks_come_one_at_a_time_and_end() -> None:
     ticks.heed()  # nothing to hear: no harm
     ticks.close()
     assert threading.active_count() == before
+
+
+def test_a_clock_that_is_closed_at_the_very_moment_of_a_tick_ends() -> None:
+    ticks = Ticks(0.01)
+    clear = ticks._heard.clear
+
+    def closed_before() -> None:
+        ticks._ended.set()
+        ticks._heard.set()
+        clear()
+
+    ticks._heard.clear = closed_before  # type: ignore[method-assign]
+    ticks._heard.set()  # where it waits for the first tick to be heard already
+    ticks._thread.join(5.0)
+    assert not ticks._thread.is_alive()
+    ticks.close()
