@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable
+from typing import Protocol
 
 from zteleop.bus import clock
 from zteleop.bus.subscription import Subscription
@@ -13,6 +14,22 @@ HEARD_WITHIN, START = 10.0, 16.0
 TELL_AFTER = 1.0
 """s of that until it is told for whom somebody waits"""
 _POLL = 0.002
+
+
+class Hears(Protocol):
+    """What the proofs of a command are made from."""
+
+    @property
+    def beat(self) -> Beat | None:
+        """The newest that was heard by whoever acts."""
+
+    @property
+    def vehicle(self) -> Vehicle | None:
+        """What the robot last said it is."""
+
+    @property
+    def awake_since(self) -> float:
+        """When this process last woke from standing still; before that it heard, and said, nothing."""
 
 
 class Heard:

@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from typing import Any, TypeVar
 
 from zteleop.bus import clock, codec, presence
-from zteleop.bus.heard import Heard
+from zteleop.bus.heard import Heard, Hears
 from zteleop.bus.lag import Lag
 from zteleop.bus.loop import Loop
 from zteleop.bus.names import Name, resolve
@@ -36,6 +36,8 @@ class Membership:
         self.loop = Loop(before_each=self.listen)
         self.link: Callable[[Outlet], Outlet] = _as_it_is
         """what an outlet is made into, for a link that is worse than it is"""
+        self.echo: Callable[[Heard], Hears] = _as_heard
+        """what commands echo of what is heard, where somebody else than this node acts"""
         self._node = node
         self._robot = robot
         self._complain = complain
@@ -156,3 +158,7 @@ def _keep_quiet(text: str) -> None:
 
 def _as_it_is(outlet: Outlet) -> Outlet:
     return outlet
+
+
+def _as_heard(heard: Heard) -> Hears:
+    return heard

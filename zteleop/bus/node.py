@@ -155,7 +155,7 @@ class Node:
             self.membership.outlet(name, kinds, about.urgent),
             kinds,
             Prover(sender),
-            heard,
+            self.membership.echo(heard),
             self.membership.listen_now,
             answer,
         )

@@ -5,7 +5,7 @@ from typing import Generic, TypeVar
 
 from zteleop.bus import clock, codec
 from zteleop.bus.answer import Answer
-from zteleop.bus.heard import Heard
+from zteleop.bus.heard import Hears
 from zteleop.bus.session import Outlet
 from zteleop.control.command import moves, neutral, steers_only
 from zteleop.control.proof import NEVER, Prover
@@ -27,7 +27,7 @@ class Publisher(Generic[M]):
         outlet: Outlet,
         types: tuple[type[M], ...],
         prover: Prover | None = None,
-        heard: Heard | None = None,
+        heard: Hears | None = None,
         listen: Callable[[], object] = lambda: None,
         answer: Answer | None = None,
     ) -> None:

@@ -29,6 +29,10 @@ class FakeLoop:
         """Return a timer that runs an action once, whenever it is set."""
         return self._add(Timer(None, action, float("inf")))
 
+    def call_soon(self, action: Action) -> None:
+        """Run an action; in a test that is now."""
+        action()
+
     def watch(self, file: int, action: Action) -> None:
         self.watched[file] = action
 

@@ -1,0 +1,192 @@
+// @ts-check
+/** The page: what is heard goes to where it is shown, what is pressed to the bus. */
+
+import { Bus } from "./bus.js";
+import { Held, touch } from "./held.js";
+import { Top } from "./top.js";
+
+const TOPICS = ["drive_status", "vehicle", "odom", "scene", "battery_state", "watchdog"];
+const SILENT = 500; // ms without a status after which it is not so any more
+const KEY = "zteleop.token";
+
+/**
+ * @template {HTMLElement} [T=HTMLElement]
+ * @param {string} id
+ * @returns {T}
+ */
+const at = (id) => /** @type {T} */ (document.getElementById(id));
+/**
+ * @param {string} id
+ * @param {string} text
+ */
+const show = (id, text) => {
+  const place = at(id);
+  if (place.textContent !== text) place.textContent = text;
+};
+/** @param {number} value */
+const signed = (value) => (value < 0 ? "\u2212" : "+") + Math.abs(value).toFixed(2);
+/** @param {any} twist */
+const twisted = (twist) => `${signed(twist.linear.x)} m/s  ${signed(twist.angular.z)} rad/s`;
+
+const token = new URLSearchParams(location.hash.slice(1)).get("t") || sessionStorage.getItem(KEY) || "";
+sessionStorage.setItem(KEY, token); // a page that is loaded anew keeps it; it stands in no address that is logged
+history.replaceState(null, "", location.pathname);
+
+const held = new Held(document);
+const top_ = new Top(at("top"));
+const known = { you: "", holder: "", obeyed: false, refused: "", vehicle: /** @type {any} */ (null), heard: 0 };
+const bus = new Bus(token, () => stick(), hear, () => {}, connected);
+bus.topics.push(...TOPICS);
+
+/** @returns {import("./bus.js").Stick} */
+function stick() {
+  const now = held.stick();
+  at("stick").dataset.held = String(now.deadman && known.obeyed);
+  return { ...now, drive: now.drive * share("forward"), turn: now.turn * share("turning") };
+}
+
+/** @param {boolean} open */
+function connected(open) {
+  known.heard = 0;
+  if (!open) tell("away", "not connected: looking for the server", "");
+}
+
+/**
+ * @param {string} state
+ * @param {string} word
+ * @param {string} why
+ */
+function tell(state, word, why) {
+  at("state").dataset.state = state;
+  show("state", word);
+  show("why", why);
+}
+
+/** @param {import("./bus.js").Word} word */
+function hear(word) {
+  switch (word.is) {
+    case "hello":
+      known.you = word.you;
+      show("robot", word.robot);
+      document.title = `${word.robot} \u2013 zteleop`;
+      break;
+    case "heard":
+      heard(word.topic, word.message);
+      break;
+    case "wheel":
+      known.holder = word.holder;
+      wheel(word.pages);
+      break;
+    case "seen":
+      known.obeyed = word.obeyed;
+      known.refused = word.refused;
+      note(word.note, word.alarm);
+      break;
+    case "note":
+      note(word.says, word.alarm);
+      break;
+  }
+}
+
+/**
+ * @param {string} topic
+ * @param {any} message
+ */
+function heard(topic, message) {
+  if (topic === "odom") {
+    top_.move(message);
+    show("moving", twisted(message.twist.twist));
+  } else if (topic === "drive_status") status(message);
+  else if (topic === "vehicle") vehicle(message);
+  else if (topic === "scene") scene(message.data);
+  else if (topic === "battery_state") battery(message);
+}
+
+/** @param {any} said zteleop_msgs/msg/DriveStatus */
+function status(said) {
+  known.heard = performance.now();
+  const who = said.operator ? `${said.source} ${said.operator.slice(-4).padStart(4, "0")}` : "";
+  const mine = known.obeyed && known.holder === known.you;
+  const word = said.state === "driving" ? (mine ? "driving, you operate" : `driving, ${who} operates`) : said.state;
+  const asks = known.holder === known.you && held.stick().deadman;
+  const why = asks && !known.obeyed && known.refused ? `you are not obeyed: ${known.refused}` : said.why;
+  tell(said.state, word, why);
+  show("asked", twisted(said.wanted));
+  show("allowed", twisted(said.applied) + (said.slowed ? `, at most ${said.max_speed.toFixed(2)} m/s: ${said.slowed}` : ""));
+  show("out", said.pulses.map((/** @type {any} */ p) => `${p.name} ${p.duty_ticks} (${p.pulse_us.toFixed(0)} us)`).join(", ") || "-");
+  show("link", said.latency ? `commands arrive within ${(1000 * said.latency).toFixed(0)} ms` : "-");
+  at("release").hidden = !said.stops.length;
+  for (const pulse of said.pulses)
+    if (pulse.name === "steering" && known.vehicle) top_.wheels = pulse.fraction * known.vehicle.max_steering_angle;
+}
+
+/** @param {any} said zteleop_msgs/msg/Vehicle */
+function vehicle(said) {
+  known.vehicle = said;
+  const steers = said.max_steering_angle > 0;
+  const length = steers ? said.wheelbase : 0.34;
+  top_.vehicle = { steers, length, width: steers ? 0.68 * length : length };
+  speeds();
+}
+
+/** @param {string} text the lines of a scene, as JSON */
+function scene(text) {
+  const lines = JSON.parse(text);
+  top_.scene = lines.map((/** @type {any} */ one) => ({ points: one.points, closed: false }));
+  top_.ask();
+}
+
+/** @param {any} said sensor_msgs/msg/BatteryState */
+function battery(said) {
+  const low = said.percentage < 0.2 ? ", low" : "";
+  show("battery", `${Math.round(100 * said.percentage)} %${low}, ${said.voltage.toFixed(1)} V`);
+}
+
+/** @param {string[]} pages */
+function wheel(pages) {
+  const mine = known.holder === known.you;
+  const who = mine ? "you have the wheel" : known.holder ? `${known.holder} has the wheel` : "nobody has the wheel";
+  show("pages", pages.length > 1 ? `${who}, ${pages.length} pages are open` : who);
+  at("take").toggleAttribute("disabled", mine);
+  at("hand-over").toggleAttribute("disabled", !mine);
+}
+
+/**
+ * @param {string} words
+ * @param {boolean} alarm
+ */
+function note(words, alarm) {
+  show("note", words);
+  at("note").hidden = !words;
+  at("note").dataset.alarm = String(alarm);
+}
+
+/**
+ * @param {string} id of a slider
+ * @returns {number} how much of what the robot can a full stick asks for
+ */
+function share(id) {
+  return Number(/** @type {HTMLInputElement} */ (at(id)).value) / 100;
+}
+
+function speeds() {
+  if (!known.vehicle) return;
+  show("forward-says", `${(share("forward") * known.vehicle.max_speed).toFixed(2)} m/s`);
+  show("turning-says", `${(share("turning") * known.vehicle.max_turn).toFixed(2)} rad/s`);
+}
+
+for (const id of ["forward", "turning"]) at(id).addEventListener("input", speeds);
+at("stop").addEventListener("click", () => bus.wish("stop"));
+at("release").addEventListener("click", () => bus.wish("release"));
+at("take").addEventListener("click", () => bus.wish("take"));
+at("hand-over").addEventListener("click", () => bus.wish("hand over"));
+touch(at("stick"), held, (x, y) => {
+  at("knob").style.setProperty("--x", String(x));
+  at("knob").style.setProperty("--y", String(y));
+});
+setInterval(() => {
+  if (known.heard && performance.now() - known.heard > SILENT) {
+    known.heard = 0;
+    tell("away", "the robot is not heard", "is its actuator on? If it moves, cut its power");
+  }
+}, 100);

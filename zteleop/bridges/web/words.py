@@ -1,0 +1,113 @@
+"""What a page and its server say to each other, in JSON; what is said on the bus passes as it is.
+
+Pictures alone are bytes: the time of day in s as a big-endian double, then a JPEG.
+"""
+
+from typing import Annotated, Literal
+
+import msgspec
+from msgspec import Meta, Raw, Struct
+
+from zteleop.errors import MessageError
+
+LONGEST = 65536
+"""bytes of what a page says"""
+Axis = Annotated[float, Meta(ge=-1, le=1)]
+Words = Annotated[str, Meta(max_length=200)]
+Topics = Annotated[list[Annotated[str, Meta(max_length=200)]], Meta(max_length=64)]
+
+
+class Held(Struct, tag="held", tag_field="is", frozen=True, forbid_unknown_fields=True):
+    """All that is held on a page, 50 times a second while anything is, and once when nothing is any more."""
+
+    seq: Annotated[int, Meta(ge=0, lt=2**53)]
+    drive: Axis
+    """-1 to 1, forward"""
+    turn: Axis
+    """-1 to 1, to the left"""
+    deadman: bool
+    """Something is held: what it asks for counts."""
+    epoch: Annotated[int, Meta(ge=0, lt=2**53)]
+    """of the newest beat of the robot that this page has heard, as its time is: nobody else echoes them"""
+    beat: float
+
+
+class Wish(Struct, tag="wish", tag_field="is", frozen=True, forbid_unknown_fields=True):
+    """What somebody wants once. Anybody may stop, and release a stop; the rest is about the wheel."""
+
+    of: Literal["stop", "release", "take", "hand over"]
+    why: Words = ""
+
+
+class Watch(Struct, tag="watch", tag_field="is", frozen=True, forbid_unknown_fields=True):
+    """All the topics that a page wants to hear from now on, by their names on the bus."""
+
+    topics: Topics
+
+
+Said = Held | Wish | Watch
+
+
+class Hello(Struct, tag="hello", tag_field="is", frozen=True):
+    """The first word of a server: which robot this is, and what the page is called."""
+
+    robot: str
+    version: str
+    you: str
+
+
+class Heard(Struct, tag="heard", tag_field="is", frozen=True):
+    """What was said on the bus, as it was said."""
+
+    topic: str
+    type: str
+    message: Raw
+
+
+class Wheel(Struct, tag="wheel", tag_field="is", frozen=True):
+    """Who drives from a page of this server, and who watches."""
+
+    holder: str
+    """nobody's while it is empty"""
+    pages: list[str]
+
+
+class Seen(Struct, tag="seen", tag_field="is", frozen=True):
+    """What the operator of this server knows that is not on the bus."""
+
+    obeyed: bool
+    """The robot does what is held on the page that has the wheel."""
+    refused: str
+    """why not, in the robot's words"""
+    note: str
+    """what the robot answers to a stop, or complains of"""
+    alarm: bool
+    """the note must be read now"""
+    silence: float
+    """s for which the robot has said nothing, where that is too long"""
+
+
+class Note(Struct, tag="note", tag_field="is", frozen=True):
+    """A sentence for whoever sits before the page."""
+
+    says: str
+    alarm: bool = False
+
+
+_decoder = msgspec.json.Decoder(Said)
+_encoder = msgspec.json.Encoder()
+
+
+def read(frame: str | bytes) -> Said:
+    """Return what a page says; raises MessageError for anything else."""
+    if isinstance(frame, bytes):
+        raise MessageError("expected text, found bytes; load the page anew")
+    try:
+        return _decoder.decode(frame)
+    except (msgspec.DecodeError, UnicodeEncodeError) as error:
+        raise MessageError(f"expected what a page of this server says, found another: {error}") from None
+
+
+def text(word: Hello | Heard | Wheel | Seen | Note) -> str:
+    """Return what a server says, as it is sent."""
+    return _encoder.encode(word).decode()
