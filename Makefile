@@ -42,6 +42,7 @@ schemas: .venv/installed
 bench: .venv/installed-dev
 	@for name in key_to_wheel publish_to_handler control_and_codec shell graph keyboard idle_cost flood; do \
 		$(BIN)/python benchmarks/$$name.py || exit 1; done
+	@$(BIN)/python benchmarks/history.py
 
 # Above three hours: each fault 50 times, every failure in every state, bad links, half an hour each of floods and of
 # all that strangers do, an hour of driving under load.

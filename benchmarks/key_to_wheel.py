@@ -1,8 +1,10 @@
 """From a key byte in a terminal to the registers of the chip, two processes apart, seen from outside."""
 
 import sys
+from contextlib import ExitStack
 
-from figures import is_quick, median, p99, print_table, verdict
+from figures import command_line, median, p99, print_table, verdict
+from processes import running
 from robot import RAW_LINE, Operator, RawRobot, Robot
 
 TARGET = 1.5
@@ -25,10 +27,15 @@ def time_lines(rounds: int) -> tuple[list[float], list[float]]:
 
 
 def main() -> None:
-    quick = is_quick(__doc__)
-    ours, raw = time_lines(1 if quick else 15)
+    parser = command_line(__doc__)
+    parser.add_argument("--busy", type=int, default=0, metavar="N", help="beside so many busy processes")
+    options = parser.parse_args()
+    with ExitStack() as stack:
+        for _ in range(options.busy):
+            stack.enter_context(running([sys.executable, "-c", "while True: pass"]))
+        ours, raw = time_lines(1 if options.quick else 15)
     print_table(
-        f"key to wheel, ms, {len(ours)} presses",
+        f"key to wheel, ms, {len(ours)} presses, {options.busy} busy processes beside",
         ["line", "p50", "p90", "p99", "of raw", "target for p50"],
         [
             _row("zteleop keyboard -> zteleop actuator", ours, raw, verdict(median(ours), TARGET, "ms")),

@@ -2,8 +2,16 @@
 
 from contextlib import suppress
 from queue import Empty, SimpleQueue
+from typing import Protocol
 
 from zteleop.bus.session import Sample
+
+
+class Undeclarable(Protocol):
+    """What is done until it is undeclared."""
+
+    def undeclare(self) -> None:
+        """Take it back."""
 
 
 class OverheardRing:
@@ -13,6 +21,8 @@ class OverheardRing:
         self._samples: SimpleQueue[Sample | None] = SimpleQueue()
         """None is the end"""
         self._depth = depth
+        self.declared: Undeclarable | None = None
+        """What fills it, where that can be taken back."""
         self.skipped = 0
         """How many were lost so far."""
 
@@ -40,6 +50,8 @@ class OverheardRing:
         self._samples.put(None)
 
     def undeclare(self) -> None:
+        if self.declared:
+            self.declared.undeclare()
         self.close()
 
     def _taken(self, sample: Sample | None) -> Sample:

@@ -5,13 +5,13 @@ import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
-from typing import Any, Protocol, Self
+from typing import Any, Self
 from weakref import WeakSet
 
 import zenoh
 
 from zteleop.bus.loop import Loop
-from zteleop.bus.overheard import OverheardRing
+from zteleop.bus.overheard import OverheardRing, Undeclarable
 from zteleop.bus.pump import Pump
 from zteleop.bus.session import Inbox, Question, Reply, Sample
 from zteleop.errors import BusError
@@ -26,13 +26,6 @@ _MOST = 50_000
 """tokens that are taken in; a stranger may declare any number"""
 
 
-class Undeclarable(Protocol):
-    """What zenoh does until it is undeclared."""
-
-    def undeclare(self) -> None:
-        """Take it back."""
-
-
 class ZenohSession:
     """A session of zenoh, as a node wants it, and as the door does."""
 
@@ -40,7 +33,7 @@ class ZenohSession:
         self.zenoh = zenoh_session
         self._connect = connect
         self._kept: list[Undeclarable] = []
-        self._overheard: list[OverheardRing] = []
+        self._overheard: WeakSet[OverheardRing] = WeakSet()
         _open.add(self)
 
     def subscribe(self, key: str, depth: int) -> "ZenohRing":
@@ -48,8 +41,8 @@ class ZenohSession:
 
     def overhear(self, key: str, depth: int) -> OverheardRing:
         ring = OverheardRing(depth)
-        self._kept.append(self.hear(key, ring.take))
-        self._overheard.append(ring)
+        ring.declared = self.hear(key, ring.take)
+        self._overheard.add(ring)
         return ring
 
     def hear(self, key: str, passes: Callable[[Sample], None]) -> Undeclarable:

@@ -4,6 +4,7 @@ import re
 import threading
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from unit.bus.fakes import Outlet, Session, sample
@@ -54,6 +55,16 @@ def test_a_node_with_a_bad_link_says_nothing_on_a_better_one(node: Node, session
     node.publisher("chatter", String).publish(String("hello"))
     assert len(worse.puts) == 1
     assert said(session, "robot/archangel/chatter").puts == []
+
+
+def test_a_command_echoes_what_whoever_acts_has_heard(node: Node, session: Session, clock: Clock) -> None:
+    older = Beat(1, 5.0, 0.0)
+    node.membership.echo = lambda heard: SimpleNamespace(beat=older, vehicle=None, awake_since=0.0)
+    motors = node.publisher("cmd_vel", Twist, source="web", wait=False)
+    motors.publish(Twist.planar(0.1))
+    proof = codec.unpack_proof(said(session, "robot/archangel/cmd_vel/web").puts[0].attachment)
+    assert proof is not None
+    assert (proof.epoch, proof.beat) == (1, 5.0)
 
 
 def test_a_node_without_a_robot_is_nobodys(stranger: Node, session: Session) -> None:

@@ -1,5 +1,6 @@
 import threading
 from contextlib import suppress
+from types import SimpleNamespace
 
 import pytest
 from unit.bus.fakes import put
@@ -55,5 +56,15 @@ def test_whoever_waits_gets_what_comes_and_the_end() -> None:
 def test_what_is_undeclared_is_at_its_end() -> None:
     ring = OverheardRing(1)
     ring.undeclare()
+    with pytest.raises(EOFError):
+        ring.recv()
+
+
+def test_who_hears_no_more_takes_back_what_fills_it() -> None:
+    taken_back = []
+    ring = OverheardRing(1)
+    ring.declared = SimpleNamespace(undeclare=lambda: taken_back.append(True))
+    ring.undeclare()
+    assert taken_back == [True]
     with pytest.raises(EOFError):
         ring.recv()

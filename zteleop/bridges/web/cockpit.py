@@ -55,6 +55,7 @@ class Cockpit:
 
     def _join(self, page: str, slots: Slots) -> None:
         self._pages[page] = slots
+        self._wheel.join(page)
         slots.put("hello", text(Hello(self._node.robot or "", self._version, page)))
         self._tell_wheel()
         if self._told[1]:
@@ -72,6 +73,8 @@ class Cockpit:
         if slots is None:
             return
         if isinstance(said, Held):
+            if said.deadman and not self._wheel.is_held(clock.now()):
+                self._teleop.obey()  # what is news of the robot comes before a press, and takes none back
             if self._wheel.hear(page, said, clock.now()):
                 self._teleop.obey()
             self._tell_wheel()

@@ -64,7 +64,7 @@ class Watching:
             about = topic_of(name.path)
             key = f"{name.key}/**" if about.command and name.path == about.name else name.key
             session, loop = self._node.membership.session, self._node.membership.loop
-            ring = session.subscribe(key, DEPTH)
+            ring = session.overhear(key, DEPTH)
             watched = self._topics[topic] = Watched(ring, _NONE, {})
             inbox = _Inbox(ring, partial(framed, topic, name))
             watched.delivery = session.deliver(inbox, partial(self._pass_on, topic), loop)

@@ -37,17 +37,23 @@ class Wheel:
         self._at = float("-inf")
         self._ready = False
         """nothing was held since whatever must be followed by that"""
+        self._resting: dict[str, bool] = {}
+        """of each page whether it holds nothing, as far as it has said"""
 
     @property
     def echo(self) -> Held:
         """What the page that drives said last, with the beat that it had heard."""
         return self._held
 
+    def join(self, page: str) -> None:
+        """Take in that there is a page, which holds nothing: what it finds held it does not count."""
+        self._resting[page] = True
+
     def take(self, page: str, now: float) -> str:
         """Give the wheel to a page; where another drives, return why not."""
         if page == self.holder:
             return ""
-        if self._is_held(now):
+        if self.is_held(now):
             return f"{self.holder} drives: it must let go, or hand over"
         self._pass_to(page, now)
         return ""
@@ -61,22 +67,28 @@ class Wheel:
 
     def leave(self, page: str, now: float) -> None:
         """Take in that a page is gone: nobody holds what it held."""
+        self._resting.pop(page, None)
         if page == self.holder:
             self._pass_to("", now)
 
     def hear(self, page: str, held: Held, now: float) -> bool:
         """Take in what a page holds; False when it is not the one that drives, or says nothing new.
 
-        Nobody's wheel is whose page first holds something after it held nothing.
+        Nobody's wheel is whose page first holds something, and drives if that held nothing before.
         """
         if not self.holder and held.deadman:
             self._pass_to(page, now)
+        self._resting[page] = not held.deadman
         if page != self.holder or held.seq <= self._held.seq:
             return False
         self._held, self._at = held, now
         if not held.deadman:
             self._ready = self.rested = True
         return True
+
+    def is_held(self, now: float) -> bool:
+        """Say whether the page that has the wheel holds something."""
+        return self._held.deadman and now - self._at < SILENCE
 
     def fileno(self) -> int | None:
         """Return None: pages come by another thread, which says so."""
@@ -87,11 +99,11 @@ class Wheel:
 
     def read(self, now: float) -> bool:
         """Say whether somebody holds something that counts: that is an act as long as it lasts."""
-        return self._is_held(now) and self._ready
+        return self.is_held(now) and self._ready
 
     def stick(self, now: float) -> Stick:
         """Return where the stick is now."""
-        if not self._is_held(now) or not self._ready:
+        if not self.is_held(now) or not self._ready:
             return Stick()
         return Stick(self._held.drive, self._held.turn, deadman=True)
 
@@ -105,11 +117,8 @@ class Wheel:
     def __exit__(self, *exc: object) -> None:
         self.holder = ""
 
-    def _is_held(self, now: float) -> bool:
-        return self._held.deadman and now - self._at < SILENCE
-
     def _pass_to(self, page: str, now: float) -> None:
         # neutral is still said in the name of who had it, with the beat that he had heard
         self._held = replace(NOTHING, epoch=self._held.epoch, beat=self._held.beat)
         self.holder, self._at = page, now
-        self._ready, self.rested = False, True
+        self._ready, self.rested = self._resting.get(page, False), True

@@ -32,14 +32,26 @@ def pages() -> Pages:
 DRIVEN = Stick(0.5, 0.25, deadman=True)
 
 
-def test_whoever_holds_something_first_gets_the_wheel_and_drives_once_he_has_let_go(pages: Pages) -> None:
+def test_whoever_holds_something_first_gets_the_wheel_and_drives(pages: Pages) -> None:
+    pages.wheel.join("ann")
     pages.hold("ann", 0.5)
-    assert (pages.wheel.holder, pages.stick) == ("ann", Stick()), "it may have been held since another time"
+    assert (pages.wheel.holder, pages.stick) == ("ann", DRIVEN)
+    assert pages.wheel.read(pages.now), "what is held is an act"
     pages.hold("ann", None)
     assert not pages.wheel.read(pages.now)
-    pages.hold("ann", 0.5)
+
+
+def test_who_held_something_before_the_wheel_was_free_must_let_go_first(pages: Pages) -> None:
+    for page in ("ann", "bob"):
+        pages.wheel.join(page)
+    pages.hold("ann", 0.1)
+    pages.hold("bob", 0.5)
+    pages.wheel.hand_over("ann", pages.now)
+    pages.hold("bob", 0.5)
+    assert (pages.wheel.holder, pages.stick) == ("bob", Stick())
+    pages.hold("bob", None)
+    pages.hold("bob", 0.5)
     assert pages.stick == DRIVEN
-    assert pages.wheel.read(pages.now), "what is held is an act"
 
 
 @pytest.fixture
@@ -76,6 +88,7 @@ def test_who_drives_keeps_the_wheel_until_he_lets_go_or_is_silent(driven: Pages)
 
 
 def test_who_takes_a_wheel_with_a_key_held_must_let_go_first(driven: Pages) -> None:
+    driven.hold("bob", 0.5)
     driven.now += SILENCE + 0.001
     driven.wheel.take("bob", driven.now)
     driven.hold("bob", 0.5)

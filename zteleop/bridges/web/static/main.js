@@ -2,10 +2,11 @@
 /** The page: what is heard goes to where it is shown, what is pressed to the bus. */
 
 import { Bus } from "./bus.js";
+import { Eye } from "./eye.js";
 import { Held, touch } from "./held.js";
 import { Top } from "./top.js";
 
-const TOPICS = ["drive_status", "vehicle", "odom", "scene", "battery_state", "watchdog"];
+const TOPICS = ["drive_status", "vehicle", "odom", "scene", "battery_state", "watchdog", "camera/image/compressed"];
 const SILENT = 500; // ms without a status after which it is not so any more
 const KEY = "zteleop.token";
 
@@ -35,7 +36,8 @@ history.replaceState(null, "", location.pathname);
 const held = new Held(document);
 const top_ = new Top(at("top"));
 const known = { you: "", holder: "", obeyed: false, refused: "", vehicle: /** @type {any} */ (null), heard: 0 };
-const bus = new Bus(token, () => stick(), hear, () => {}, connected);
+const eye = new Eye(at("eye"), (words) => show("camera", words));
+const bus = new Bus(token, () => stick(), hear, (picture) => eye.see(picture), connected);
 bus.topics.push(...TOPICS);
 
 /** @returns {import("./bus.js").Stick} */
