@@ -146,6 +146,14 @@ def test_echo_finds_the_only_robot_there_is(rig: Rig) -> None:
     assert json.loads(result.stdout)["epoch"] > 0
 
 
+def test_a_client_says_soon_for_which_router_it_waits(rig: Rig) -> None:
+    process = rig.run("list", "-m", "client", "-e", "tcp/127.0.0.1:9", "--no-multicast-scouting")
+    assert process.ends() == 1
+    waits, ends = process.text.splitlines()
+    assert waits == "waits for a router, tcp/127.0.0.1:9"
+    assert ends.startswith("zteleop list: no router found (tcp/127.0.0.1:9)")
+
+
 def test_echo_says_once_what_it_waited_for_in_vain(rig: Rig) -> None:
     waits, ends = ask(rig, "echo", "battery_state", "--timeout", "1.5").stderr.splitlines()
     assert waits.startswith("zteleop echo: waits for bench/battery_state: nobody publishes it")

@@ -171,7 +171,7 @@ def test_a_mistake_is_refused_with_its_place_and_reason(text: str | bytes, words
         ("[drive.servos.a]\nchanel = 1", "drive.servos.a.chanel: no such setting; did you mean channel?"),
         (
             "[drive.servos.good]\nchannel = 1\n[drive.servos.bad]\nchannel = 1\nmin_us = 'x'",
-            "5:1: drive.servos.bad.min_us: expected a number",
+            "5:1: drive.servos.bad.min_us: expected us from 500",
         ),
         ("[drive.servos]\nsteering = 5", "2:1: drive.servos.steering: expected a table, found 5"),
         (

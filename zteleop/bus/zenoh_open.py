@@ -3,13 +3,17 @@
 import json
 import os
 import re
+import threading
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 import zenoh
 
 from zteleop.bus import linger, networks
 from zteleop.bus.settings import ANY_PORT, ENDPOINT, PORT, SAME_MACHINE, BusSettings
 from zteleop.errors import BusError, ConfigError
+from zteleop.machine import signals, stderr
 
 _ENDPOINT = re.compile(ENDPOINT)
 _RUNTIME = "ZENOH_RUNTIME"
@@ -32,6 +36,8 @@ _SESSIONS = 200
 """for the same: each costs 90 kB, and a class of thirty has some 120; with the connections that say nothing
 they are fewer than the 1024 files a process may usually have open"""
 _RETRY = 0.1
+_TELL_AFTER = 1.0
+"""s of waiting for a router, after which that is said"""
 _LOOK_EVERY, _QUIET, _LOOKS = 0.005, 12, 100
 """s between two looks at who is there; how many of them find nobody new, and how many there are at most"""
 
@@ -47,14 +53,31 @@ def open_zenoh(
     """
     config = _configure(settings, settle, door, patient)
     give_up = time.monotonic() + settings.patience
-    while True:
-        try:
-            session = _open(config, door or settings.mode == "router")
-            return _settled(session, settle)
-        except zenoh.ZError as error:
-            if settings.mode != "client" or time.monotonic() > give_up:
-                raise BusError(_words(settings, error)) from error
-        time.sleep(_RETRY)
+    with _telling(settings):
+        while True:
+            try:
+                session = _open(config, door or settings.mode == "router")
+                return _settled(session, settle)
+            except zenoh.ZError as error:
+                if settings.mode != "client" or time.monotonic() > give_up:
+                    raise BusError(_words(settings, error)) from error
+            time.sleep(_RETRY)
+
+
+@contextmanager
+def _telling(settings: BusSettings) -> Iterator[None]:
+    """Say for whom a client waits, where that lasts; zenoh gives nobody a word meanwhile."""
+    if settings.mode != "client":
+        yield
+        return
+    routers = " or ".join(settings.connect) or "any router"
+    teller = threading.Timer(_TELL_AFTER, stderr.tell, (f"waits for a router, {routers}",))
+    teller.daemon = True
+    signals.start(teller)
+    try:
+        yield
+    finally:
+        teller.cancel()
 
 
 def _open(config: zenoh.Config, door: bool) -> zenoh.Session:

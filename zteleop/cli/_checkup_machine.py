@@ -55,10 +55,11 @@ def i2c(patient: Patient) -> Finding:
     path = f"/dev/i2c-{patient.settings.driver_settings('pca9685', 'any').get('bus', 1)}"
     if os.access(path, os.R_OK | os.W_OK):
         return Finding(True, f"{path} can be used")
-    if not _real(patient):
-        return Finding(None, f"{path} is not there, or not yours to use; only a real chip needs it")
     number = errno.EACCES if os.path.exists(path) else errno.ENOENT
-    return Finding(False, str(failure(OSError(number, ""), path)))
+    words = str(failure(OSError(number, ""), path))
+    if not _real(patient):
+        return Finding(None, f"{words}; only a real chip needs it")
+    return Finding(False, words)
 
 
 def _real(patient: Patient) -> bool:

@@ -45,8 +45,10 @@ def run(arguments: argparse.Namespace) -> None:
         node.every(ASK_EVERY)(way.ask)
 
         def tell() -> None:
-            print(printable(_row(way.driver, way.cells())), flush=True)
             due.ring_at(clock.now() + LINE_EVERY)
+            if not way.is_heard:  # which soon is an error
+                return
+            print(printable(_row(way.driver, way.cells())), flush=True)
             if arguments.once:
                 node.stop()
 
@@ -76,12 +78,14 @@ class Way:
         """s, of each question since the last line: half of there and back"""
         self.driver = NOBODY
         """who, by the name that everything calls it"""
+        self.is_heard = False
+        """the robot has said anything at all"""
         self._heard = clock.now()
 
     def see(self, received: Received[DriveStatus]) -> None:
         status = received.message
         self.driver = called(status.source, status.operator) if status.operator else NOBODY
-        self._heard = received.at
+        self._heard, self.is_heard = received.at, True
 
     def hear(self, received: Received[Latency]) -> None:
         self._told[received.message.by] = Told(received.message.hops, received.at)
@@ -101,7 +105,7 @@ class Way:
                 ) from None
         else:
             self._there.append((clock.now() - before) / 2)
-            self._heard = clock.now()
+            self._heard, self.is_heard = clock.now(), True
 
     def cells(self) -> tuple[str, ...]:
         """Return how long each part took in the last second, all of it, and how long at the worst."""

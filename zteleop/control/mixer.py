@@ -15,13 +15,15 @@ from zteleop.control import curvature
 from zteleop.messages import Twist
 
 Positive = Annotated[float, Meta(gt=0, le=1000)]
+Length = Annotated[float, Meta(gt=0, le=10)]
+"""m; more of them are centimetres"""
 Wheels = dict[str, float]
 
 
 class Ackermann(Struct, frozen=True, tag_field="kind", tag="ackermann", forbid_unknown_fields=True):
     """A car: one throttle, front wheels that steer (bicycle model)."""
 
-    wheelbase: Positive = 0.25
+    wheelbase: Length = 0.25
     """m between the axles"""
     max_steering_angle: Annotated[float, Meta(gt=0, lt=1.5)] = 0.4
     """rad to either side"""
@@ -54,7 +56,7 @@ class Ackermann(Struct, frozen=True, tag_field="kind", tag="ackermann", forbid_u
 class Differential(Struct, frozen=True, tag_field="kind", tag="differential", forbid_unknown_fields=True):
     """Two driven wheels, `track` apart."""
 
-    track: Positive = 0.2
+    track: Length = 0.2
     """m between the wheels"""
     max_speed: Positive = 1.0
     """m/s of a wheel at full throttle"""

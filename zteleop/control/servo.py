@@ -6,7 +6,14 @@ from msgspec import Meta, Struct
 
 from zteleop.messages import Channel
 
-PulseWidth = Annotated[float, Meta(ge=500, le=2500)]
+PulseWidth = Annotated[
+    float,
+    Meta(
+        ge=500,
+        le=2500,
+        extra_json_schema={"description": "us from 500 to 2500 (a tick is some 4 of them)"},
+    ),
+]
 Reverse = Literal["direct", "double_tap", "none"]
 """What an ESC makes of pulses below neutral: drives backward; brakes, and drives when they come again after
 neutral; only brakes."""

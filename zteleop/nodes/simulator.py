@@ -5,11 +5,13 @@ from math import degrees
 from random import Random
 from typing import NamedTuple
 
+from msgspec.structs import replace
+
 from zteleop.bus import clock
 from zteleop.bus.node import Node
 from zteleop.bus.topics import TOPICS
 from zteleop.control.mixer import Ackermann
-from zteleop.control.settings import DriveSettings
+from zteleop.control.settings import DONKEYCAR, DriveSettings
 from zteleop.drivers.registers import read_pulse_us
 from zteleop.drivers.simulated import open_registers
 from zteleop.errors import ConfigError
@@ -126,7 +128,9 @@ def unknown_car(settings: DriveSettings, seed: int) -> Car:
     """Return a car to calibrate; raises ConfigError for settings that make none."""
     if not isinstance(settings.mixer, Ackermann):
         raise ConfigError("--unknown is for a car, with steering and throttle")
-    really = unknown(settings.servos, seed)
+    # the same car for a seed, whatever has been found out of it meanwhile
+    channels = {name: servo.channel for name, servo in settings.servos.items()}
+    really = unknown({name: replace(DONKEYCAR[name], channel=channels[name]) for name in DONKEYCAR}, seed)
     return Car(settings.mixer, really.servos, really.settings)
 
 

@@ -67,9 +67,11 @@ def in_steps(d: Dashboard, axis: Axis, room: int) -> Reach:
     count, most = lever.count(ticks), max(lever.most(1), lever.most(-1), 1)
     cells = max(1, min(most, room, CELLS if axis == "throttle" else most))
     plus, minus, rest = words_of(d, axis)
-    put_out = lever.count(out_ticks(d, axis, found.neutral_ticks))
+    put_out = lever.count(out := out_ticks(d, axis, found.neutral_ticks))
     told = count or put_out  # another one may drive
     words = f"{plus if told > 0 else minus} {abs(told)}/{lever.most(told)}" if told else rest
+    if told and d.task.unmeasured:  # a servo may be built in upside down
+        words = f"{(ticks if count else out) - found.neutral_ticks:+d} ticks"
     # steering grows to the right for right, which is the negative side of the axis
     sign = -1 if axis == "steering" else 1
     return Reach(sign * share(count / most, cells), sign * share(put_out / most, cells), cells, words)

@@ -7,12 +7,14 @@ from msgspec import Meta, Struct
 from zteleop.control.servo import Reverse, Servo
 
 NotNegative = Annotated[float, Meta(ge=0, le=1000)]
+DEADBAND_US = 15.0
+"""that every ESC has"""
 SHORTEST_US, LONGEST_US = 500.0, 2500.0
 
 
 class EscSettings(Struct, frozen=True, forbid_unknown_fields=True):
-    esc_deadband_us: NotNegative = 15.0
-    """To either side of neutral."""
+    esc_deadband_us: NotNegative | None = None
+    """To either side of neutral; None is what the servo's settings say, and 15 us at least."""
     motor_lag: Annotated[float, Meta(gt=0, le=10)] = 0.15
     """s to reach 63 % of a new speed."""
     rolling_resistance: NotNegative = 0.4
@@ -25,7 +27,10 @@ class EscSettings(Struct, frozen=True, forbid_unknown_fields=True):
     def throttle(self, servo: Servo, pulse_us: float | None) -> float:
         """Return the fraction, -1..1, that the motor is told; 0 without a pulse, as at neutral."""
         heard = fraction(servo, pulse_us)
-        if heard is None or abs(servo.pulse_us(heard) - servo.neutral_us) <= self.esc_deadband_us:
+        dead = self.esc_deadband_us
+        if dead is None:
+            dead = max(DEADBAND_US, servo.dead_zone_us)
+        if heard is None or abs(servo.pulse_us(heard) - servo.neutral_us) <= dead:
             return 0.0
         return heard
 

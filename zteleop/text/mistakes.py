@@ -104,7 +104,7 @@ def _whole(values: dict[str, object], cls: Any, path: Path) -> Iterator[Mistake]
 
 def _alone(value: object, kind: Any, info: inspect.Type, path: Path) -> Iterator[Mistake]:
     if words := _refusal(value, kind):
-        expected = _expected(info) or _described(inspect.type_info(kind))
+        expected = _described(inspect.type_info(kind)) or _expected(info)
         told = f"expected {expected}, found {_found(value)}" if expected else words
         choices = info.values if isinstance(info, inspect.LiteralType) else ()
         yield Mistake(path, told + _near(value, choices))

@@ -75,7 +75,13 @@ def test_a_config_file_that_is_wrong_hinders_and_the_rest_is_looked_at() -> None
         (REAL, True, True, True, "/dev/i2c-7 can be used"),
         (REAL, True, False, False, "usermod -aG i2c"),
         (REAL, False, False, False, "/dev/i2c-7 not found; is I2C enabled?"),
-        (CAR, False, False, None, "/dev/i2c-1 is not there, or not yours to use; only a real chip needs it"),
+        (
+            CAR,
+            False,
+            False,
+            None,
+            "do_i2c 0); only a real chip needs it",
+        ),
         (CAR, True, False, None, "only a real chip needs it"),
     ],
 )

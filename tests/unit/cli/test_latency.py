@@ -94,12 +94,16 @@ def test_what_was_told_of_a_while_ago_is_not_of_this_second(
     assert lines[3] == "keyboard b1c0 - 0.20 - - - -"
 
 
-def test_a_robot_that_is_not_heard_is_an_error_in_words(node: FakeNode, clock: Clock) -> None:
+@pytest.mark.parametrize("once", [True, False])
+def test_a_robot_that_is_not_heard_is_an_error_in_words(
+    node: FakeNode, once: bool, capsys: pytest.CaptureFixture[str]
+) -> None:
     del node.services["/archangel/actuator/get_time"]
     node.spin = lambda: node.loop.live(latency.HEARD_WITHIN + 1.0)
     words = r"no actuator of archangel is heard within 2 s; is it on\? .*archangle"
     with pytest.raises(BusError, match=words):
-        latency.run(argparse.Namespace(once=False))
+        latency.run(argparse.Namespace(once=once))
+    assert len(capsys.readouterr().out.splitlines()) == 1, "and no line says that nobody drives it"
 
 
 def test_a_robot_that_answers_no_question_but_says_what_it_does_is_heard(tell: Tell, node: FakeNode) -> None:

@@ -2,9 +2,10 @@ import re
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 from zteleop.bus.topics import TOPICS
-from zteleop.control.settings import DriveSettings
+from zteleop.control.settings import DONKEYCAR, DriveSettings
 from zteleop.drivers import open_driver
 from zteleop.drivers.registers import read_pulse_us
 from zteleop.nodes import simulator
@@ -80,3 +81,13 @@ def test_wheels_that_err_say_how_wrong_they_may_be(node: FakeNode, clock: Clock,
     covariance = node.said["odom"].messages[-1].pose.covariance
     assert covariance[0] > 0
     assert node.said["range"].messages[-1].variance > 0
+
+
+def test_a_seed_is_the_same_unknown_car_whatever_was_found_out_of_it_meanwhile() -> None:
+    found = {name: replace(servo, neutral_us=servo.neutral_us + 40) for name, servo in DONKEYCAR.items()}
+    found["throttle"] = replace(found["throttle"], channel=5)
+    before = simulator.unknown_car(DriveSettings(), 3)
+    after = simulator.unknown_car(DriveSettings(servos=found), 3)
+    assert after._steering == before._steering
+    assert after._throttle == replace(before._throttle, channel=5)
+    assert after._settings == before._settings

@@ -4,6 +4,7 @@ from unit.screen.boards import dashboard, pulses, status, text, texts
 from zteleop.control.stick import Stick
 from zteleop.messages import Pwm, Twist
 from zteleop.screen.bars import Reach, bar_lines, bar_spans, share
+from zteleop.screen.dashboard import Task
 
 
 def bar(asked: int, out: int, cells: int = 6, axis: str = "steering", unicode: bool = False) -> str:
@@ -126,3 +127,11 @@ def test_while_another_drives_the_words_are_of_what_is_put_out(car, tank):
 )
 def test_no_fraction_passes_the_end_however_large(fraction, filled):
     assert share(fraction, 8) == filled
+
+
+def test_while_a_servo_is_measured_its_sides_have_no_names(car):
+    said = status(pulses=pulses(car, {"steering": 385}))
+    board = dashboard("step", car, command=Pwm(385, 370), status=said)
+    assert " left " in texts(bar_lines(board, 80, True))[0]
+    measured = texts(bar_lines(board._replace(task=Task(unmeasured=True)), 80, True))
+    assert measured[0].rstrip().endswith("+10 ticks"), "it may be built in upside down"

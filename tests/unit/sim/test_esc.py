@@ -111,3 +111,11 @@ def test_a_brake_stops_sooner_than_neutral_does() -> None:
         return steps * 0.01
 
     assert seconds(BACK) < seconds(NEUTRAL)
+
+
+def test_its_deadband_is_what_the_config_says_of_it_and_never_less_than_any_has() -> None:
+    wide, narrow = Servo(0, dead_zone_us=60.0), Servo(0, dead_zone_us=2.0)
+    assert ESC.throttle(wide, 1559.0) == 0.0
+    assert ESC.throttle(wide, 1561.0) > 0
+    assert ESC.throttle(narrow, 1510.0) == 0.0
+    assert EscSettings(esc_deadband_us=5.0).throttle(wide, 1510.0) > 0, "another than the config believes"
