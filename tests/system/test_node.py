@@ -164,7 +164,7 @@ def test_who_cannot_follow_what_he_hears_is_told_so(rig: Rig, node: Node, hail: 
 
 def test_who_waits_for_what_nobody_says_is_told_and_when_it_is_said_and_when_no_more(rig: Rig) -> None:
     waits = program(rig, WEATHER)
-    waits.says("nobody publishes bench/weather (zteleop list shows what is said, and by whom)")
+    waits.says("nobody publishes bench/weather (zteleop list -v shows what is said, and by whom)")
     station = rig.join("pub", "weather", "String", "{data: fair}", "-r", "5")
     waits.says("bench/weather is published now")
     station.signal(signal.SIGINT)

@@ -36,8 +36,8 @@ def encode(message: Message) -> bytes:
         payload = _encode_json(message)
         _reader(kind)(payload)
     except msgspec.ValidationError as error:
-        _check_finite(msgspec.to_builtins(message), kind.__name__)  # which JSON writes as null
-        raise MessageError(f"cannot send {kind.__name__}: {error}") from None
+        endless = _not_finite(msgspec.to_builtins(message), kind.__name__)  # which JSON writes as null
+        raise MessageError(endless or f"cannot send {kind.__name__}: {error}") from None
     except (TypeError, ValueError, OverflowError) as error:
         raise MessageError(f"cannot send {kind.__name__}: {error}") from None
     return payload
@@ -91,9 +91,9 @@ def unpack_proof(attachment: bytes) -> Proof | None:
     return Proof._make(_PROOF.unpack(attachment)) if len(attachment) == _PROOF.size else None
 
 
-def _check_finite(value: Any, path: str) -> None:
+def _not_finite(value: Any, path: str) -> str:
+    """Return where there is a number that is not finite, in a sentence; nothing where there is none."""
     if isinstance(value, float) and not isfinite(value):
-        raise MessageError(f"expected a finite number, found {value} at {path}")
+        return f"expected a finite number, found {value} at {path}"
     items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
-    for key, item in items:
-        _check_finite(item, f"{path}.{key}")
+    return next(filter(None, (_not_finite(item, f"{path}.{key}") for key, item in items)), "")

@@ -2,16 +2,8 @@
 
 from contextlib import suppress
 from queue import Empty, SimpleQueue
-from typing import Protocol
 
-from zteleop.bus.session import Sample
-
-
-class Undeclarable(Protocol):
-    """What is done until it is undeclared."""
-
-    def undeclare(self) -> None:
-        """Take it back."""
+from zteleop.bus.session import Sample, Undeclarable
 
 
 class OverheardRing:

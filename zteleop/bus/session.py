@@ -40,6 +40,13 @@ class Reply(NamedTuple):
     refused: bool
 
 
+class Undeclarable(Protocol):
+    """What is done until it is undeclared."""
+
+    def undeclare(self) -> None:
+        """Take it back."""
+
+
 class Ring(Protocol):
     """Keeps the newest samples of one key until they are read."""
 

@@ -57,6 +57,6 @@ class Speakers:
             more = " any more" if self._ever else ""
             hint = "" if self._ever else self._meant()
             self._tell(
-                f"nobody publishes {self._name}{more}{hint} (zteleop list shows what is said, and by whom)"
+                f"nobody publishes {self._name}{more}{hint} (zteleop list -v shows what is said, and by whom)"
             )
         return clock.now() + LOOK_EVERY

@@ -24,7 +24,7 @@ class Received(NamedTuple, Generic[M]):
     at: float
     """when it was read, by the bus clock"""
     came: float = 0.0
-    """when this machine had it, by the same clock"""
+    """when this machine had it, by the same clock; 0 where nobody took note"""
 
     @property
     def source(self) -> str:

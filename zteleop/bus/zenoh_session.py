@@ -11,9 +11,9 @@ from weakref import WeakSet
 import zenoh
 
 from zteleop.bus.loop import Loop
-from zteleop.bus.overheard import OverheardRing, Undeclarable
+from zteleop.bus.overheard import OverheardRing
 from zteleop.bus.pump import Pump
-from zteleop.bus.session import Inbox, Question, Reply, Sample
+from zteleop.bus.session import Inbox, Question, Reply, Sample, Undeclarable
 from zteleop.errors import BusError
 
 _REPLY_WITHIN = 1.5

@@ -54,7 +54,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.from_donkeycar:
         keep(file, dict(imported(file.settings, arguments.from_donkeycar)), arguments.dry_run)
         return 0
-    if arguments.meter:
+    if arguments.meter is not None:
         keep(file, dict(measured(file.settings, arguments.meter)), arguments.dry_run)
         return 0
     settings = _options.with_typed(arguments, file.settings)

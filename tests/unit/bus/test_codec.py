@@ -95,6 +95,7 @@ def test_a_number_that_is_not_finite_is_refused_with_its_path(number: float) -> 
     with pytest.raises(MessageError) as error:
         codec.encode(message)
     assert str(error.value) == words
+    assert error.value.__suppress_context__, "one sentence, and not what JSON made of it"
 
 
 def test_a_number_that_is_not_finite_is_found_in_a_list() -> None:

@@ -8,8 +8,8 @@ from zteleop.testing import Clock
 
 SIM = "robot/abe/live/pub/sim/pi-7/nav_msgs.msg.Odometry/odom"
 OTHER = "robot/abe/live/pub/odometer/pi-8/nav_msgs.msg.Odometry/odom"
-NOBODY = "nobody publishes abe/odom (zteleop list shows what is said, and by whom)"
-GONE = "nobody publishes abe/odom any more (zteleop list shows what is said, and by whom)"
+NOBODY = "nobody publishes abe/odom (zteleop list -v shows what is said, and by whom)"
+GONE = "nobody publishes abe/odom any more (zteleop list -v shows what is said, and by whom)"
 
 
 class Desk:

@@ -59,6 +59,14 @@ def test_a_pulse_that_would_be_none_is_said_by_what_reads_the_file(tmp_path: Pat
         file.changed(measured(file.settings, 0.9 * MEANT_HZ))
 
 
+@pytest.mark.parametrize("hz", ["0", "nan"])
+def test_nothing_turns_for_a_meter_that_shows_none(hz: str, tmp_path: Path) -> None:
+    parser = argparse.ArgumentParser()
+    calibrate.add_arguments(parser)
+    with pytest.raises(ConfigError, match="measure at a channel with pulses"):
+        calibrate.run(parser.parse_args(["--config", str(tmp_path / "config.toml"), "--meter", hz]))
+
+
 def test_the_verb_writes_it_and_turns_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "config.toml"
     path.write_text('driver = "pca9685"  # of the car\n')

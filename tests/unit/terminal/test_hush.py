@@ -52,3 +52,13 @@ def test_what_is_no_terminal_is_left_alone(monkeypatch: pytest.MonkeyPatch) -> N
     monkeypatch.setattr(sys, "stdin", io.StringIO())
     with hushed():
         pass
+
+
+def test_a_terminal_on_which_something_is_only_shown_is_hushed_as_well(
+    typing: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shown = sys.stdin
+    monkeypatch.setattr(sys, "stdin", None)
+    monkeypatch.setattr(sys, "stdout", shown)
+    with hushed():
+        assert not termios.tcgetattr(shown)[3] & ECHO

@@ -73,11 +73,13 @@ class Cockpit:
         if slots is None:
             return
         if isinstance(said, Held):
+            before = self._wheel.holder
             if said.deadman and not self._wheel.is_held(clock.now()):
                 self._teleop.obey()  # what is news of the robot comes before a press, and takes none back
             if self._wheel.hear(page, said, clock.now()):
                 self._teleop.obey()
-            self._tell_wheel()
+            if self._wheel.holder != before:
+                self._tell_wheel()
         elif isinstance(said, Watch):
             self._watching.watch(page, slots, said.topics)
         else:

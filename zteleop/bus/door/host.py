@@ -32,8 +32,7 @@ from zteleop.bus.door.frames import (
 from zteleop.bus.door.hub import Hub
 from zteleop.bus.door.wire import Wire
 from zteleop.bus.loop import Loop
-from zteleop.bus.overheard import Undeclarable
-from zteleop.bus.session import Outlet, Question, Sample
+from zteleop.bus.session import Outlet, Question, Sample, Undeclarable
 from zteleop.bus.zenoh_session import ZenohSession
 from zteleop.control.allowance import Allowance
 from zteleop.errors import BusError

@@ -6,8 +6,7 @@ first to who keeps the fewest: he acts on the newest, and the others only look.
 
 from collections.abc import Callable
 
-from zteleop.bus.overheard import Undeclarable
-from zteleop.bus.session import Sample
+from zteleop.bus.session import Sample, Undeclarable
 from zteleop.bus.zenoh_session import ZenohSession
 
 Passes = Callable[[Sample], None]

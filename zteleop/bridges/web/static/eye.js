@@ -1,5 +1,5 @@
 // @ts-check
-/** What the robot's camera sees, the newest picture only: one is decoded at a time, and others that come meanwhile are not. */
+/** What the robot's camera sees, the newest only: of the pictures that come while one is decoded, the last. */
 
 const STAMP = 8; // bytes before the picture: the time of day in s when it was taken
 const GONE = 2000; // ms without a picture, after which none is shown

@@ -34,7 +34,7 @@ sessionStorage.setItem(KEY, token); // a page that is loaded anew keeps it; it s
 history.replaceState(null, "", location.pathname);
 
 const held = new Held(document);
-const top_ = new Top(at("top"));
+const view = new Top(at("top"));
 const known = { you: "", holder: "", obeyed: false, refused: "", vehicle: /** @type {any} */ (null), heard: 0 };
 const eye = new Eye(at("eye"), (words) => show("camera", words));
 const bus = new Bus(token, () => stick(), hear, (picture) => eye.see(picture), connected);
@@ -96,7 +96,7 @@ function hear(word) {
  */
 function heard(topic, message) {
   if (topic === "odom") {
-    top_.move(message);
+    view.move(message);
     show("moving", twisted(message.twist.twist));
   } else if (topic === "drive_status") status(message);
   else if (topic === "vehicle") vehicle(message);
@@ -119,7 +119,7 @@ function status(said) {
   show("link", said.latency ? `commands arrive within ${(1000 * said.latency).toFixed(0)} ms` : "-");
   at("release").hidden = !said.stops.length;
   for (const pulse of said.pulses)
-    if (pulse.name === "steering" && known.vehicle) top_.wheels = pulse.fraction * known.vehicle.max_steering_angle;
+    if (pulse.name === "steering" && known.vehicle) view.wheels = pulse.fraction * known.vehicle.max_steering_angle;
 }
 
 /** @param {any} said zteleop_msgs/msg/Vehicle */
@@ -127,15 +127,15 @@ function vehicle(said) {
   known.vehicle = said;
   const steers = said.max_steering_angle > 0;
   const length = steers ? said.wheelbase : 0.34;
-  top_.vehicle = { steers, length, width: steers ? 0.68 * length : length };
+  view.vehicle = { steers, length, width: steers ? 0.68 * length : length };
   speeds();
 }
 
 /** @param {string} text the lines of a scene, as JSON */
 function scene(text) {
   const lines = JSON.parse(text);
-  top_.scene = lines.map((/** @type {any} */ one) => ({ points: one.points, closed: false }));
-  top_.ask();
+  view.scene = lines.map((/** @type {any} */ one) => ({ points: one.points, closed: false }));
+  view.ask();
 }
 
 /** @param {any} said sensor_msgs/msg/BatteryState */
@@ -171,6 +171,7 @@ function share(id) {
   return Number(/** @type {HTMLInputElement} */ (at(id)).value) / 100;
 }
 
+/** Say beside the sliders what a full stick asks for. */
 function speeds() {
   if (!known.vehicle) return;
   show("forward-says", `${(share("forward") * known.vehicle.max_speed).toFixed(2)} m/s`);
