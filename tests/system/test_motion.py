@@ -102,7 +102,8 @@ def test_a_motion_is_measured(tank: Rig, line: str, way: float, turned: float) -
 @pytest.mark.parametrize(
     ("line", "code", "words"),
     [
-        ("circle 50cm", 1, "bench drives no circle of 0.5 m: its steering allows 60cm, and wider"),
+        ("circle 50cm", 1, "expected a radius of 60cm or more, as bench steers no tighter, found 50cm"),
+        ("circle 60 cm", 2, "cm stands alone; write number and unit together, such as 50cm"),
         ("circle fifty", 2, "expected a length such as 50cm, found 'fifty'"),
         ("circle 0", 2, "expected more than nothing, found 0"),
         ("goto 1m 1m --speed fast", 2, "expected a speed such as 0.2m/s, found 'fast'"),

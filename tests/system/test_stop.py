@@ -17,7 +17,7 @@ REPEAT = 0.04
 STOPPED = re.compile(
     r"bench is stopped \(neutral read back from the chip within \d+ ms\); "
     r"zteleop stop --release bench lets it drive again, from neutral\n"
-    r"goes on saying so until 3 s are over, to whoever comes late; Ctrl-C ends that\n"
+    r"goes on saying so until 3 s are over, to whoever comes late; the stop outlasts this\n"
 )
 RELEASED = re.compile(r"bench may drive again, from neutral \(acknowledged within \d+ ms\)\n")
 

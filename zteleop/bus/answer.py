@@ -3,7 +3,8 @@
 from zteleop.bus import clock
 from zteleop.bus.heard import Heard
 from zteleop.bus.log import NodeLog
-from zteleop.control.command import IN_VAIN, STEERS_ONLY, asks_in_vain, beyond_ends
+from zteleop.control.beyond import beyond_ends, too_fast, too_tight
+from zteleop.control.command import IN_VAIN, STEERS_ONLY, asks_in_vain
 from zteleop.control.gate import Refusal
 from zteleop.control.proof import NEVER
 from zteleop.control.settings import SOURCES
@@ -15,11 +16,12 @@ LASTS = 2.0
 """s that a refusal holds which the robot does not repeat; a slow stream asks seldom"""
 OBEYED_FOR = SOURCES["program"].silence
 """s after a command in which a robot still obeys a program"""
+MORE = "more than the robot does"
 BRIEF = 0.1
 """s in which no wheel has moved to speak of"""
 PAUSE, TOO_SLOW = 5.0, 2
 """s that are no stream any more, and how many gaps in a row make a slow one"""
-ANEW = "when whoever watches the robot wants it to move, start this anew (a program may let_go())"
+ANEW = "start this anew, or let_go() in a program, when whoever watches the robot wants it to move"
 LET_GO = "let go of everything, and begin anew when it is free"
 ADVICE: dict[str, str] = {
     Refusal.EARLIER_START: ANEW,
@@ -34,7 +36,7 @@ ADVICE: dict[str, str] = {
     Refusal.REPLAYED: "publish from one place",
     Refusal.OPERATOR_IDLE: "act again",
 }
-"""What to do, where the robot's own words are not enough."""
+"""What to do, in place of what the robot advises, which is for everybody."""
 
 
 class Answer:
@@ -64,8 +66,8 @@ class Answer:
         self._moved = NEVER
         self._slow = 0
         """How often in a row it was moved on too late."""
-        self._told_of_turns = False if is_program else None
-        """That no car turns on the spot; None for an input, whose operator steers before driving off."""
+        self._advised: set[str] | None = set() if is_program else None
+        """Of what a program was told; None for an input, whose operator sees what is obeyed."""
 
     @property
     def refused(self) -> str:
@@ -85,24 +87,28 @@ class Answer:
 
     def end(self, seconds: float) -> None:
         """Say to a program that ends, and so lets go, that what it said lasted too briefly to be seen."""
-        if self._told_of_turns is not None and seconds < BRIEF and not self.refused:
+        if self._advised is not None and seconds < BRIEF and not self.refused:
             self._log.warn(
                 f"what was said on {self._topic} held for {seconds * 1000:.0f} ms: a program that ends lets "
                 f"go; publish 10 times a second for as long as robot {self._robot} is to move"
             )
 
     def advise(self, message: Message, moving: bool, steers: bool) -> None:
-        """Say of a command that no robot on wheels does it, or, to a program and once, that no car does."""
+        """Say of a command that no robot on wheels does it; to a program, once, that this one does less."""
         if not moving:
             if asks_in_vain(message):
                 self._log.warn(f"what is said on {self._topic} moves nothing: {IN_VAIN}")
         elif words := beyond_ends(message, self._heard.vehicle):
-            self._log.warn(f"what is said on {self._topic} is more than the robot does: {words}")
-        elif self._told_of_turns is False and steers:
-            self._told_of_turns = True
-            self._log.warn(
-                f"what is said on {self._topic} turns front wheels and moves nothing: {STEERS_ONLY}"
-            )
+            self._log.warn(f"what is said on {self._topic} is {MORE}: {words}")
+        elif self._advised is not None:
+            self._advise_once("steers", STEERS_ONLY if steers else "", "turns front wheels and moves nothing")
+            self._advise_once("speed", too_fast(message, self._heard.vehicle), f"is {MORE}")
+            self._advise_once("turn", too_tight(message, self._heard.vehicle), f"is {MORE}")
+
+    def _advise_once(self, about: str, words: str, what: str) -> None:
+        if words and self._advised is not None and about not in self._advised:
+            self._advised.add(about)
+            self._log.warn(f"what is said on {self._topic} {what}: {words}")
 
     def heed(self, moving: bool, steers: bool = False) -> None:
         """Take in what the robot has answered; only who wants to move something misses it.
@@ -138,25 +144,28 @@ class Answer:
         now, told = clock.now(), self._heard.refusals
         if told and told is not self._told:
             self._told = told
-            words, advice = self._find(told)
+            words, sentence = self._find(told)
             self._at = now if words else self._at
-            self._tell(words, advice)
+            self._tell(words, sentence)
         elif moving and self._words and now - self._at > LASTS:
             self._tell("", "")
 
     def _find(self, told: Refusals) -> tuple[str, str]:
+        """Return the robot's words, and the sentence to tell: what it is, and one advice."""
         why = next((refused.why for refused in told.refused if refused.sender == self._sender), "")
         rest = f" ({told.rest})" if why and told.rest else ""
         advice = ADVICE.get(why, "")
-        is_input = self._told_of_turns is None
-        return why + rest, LET_GO if advice is ANEW and is_input else advice
+        if not advice:
+            return why + rest, why + rest
+        if advice is ANEW and self._advised is None:
+            advice = LET_GO
+        return why + rest, f"{why.partition('; ')[0]}{rest}; {advice}"
 
-    def _tell(self, words: str, advice: str) -> None:
+    def _tell(self, words: str, sentence: str) -> None:
         before, self._words = self._words, words
         if words and words != before:
-            todo = f"; {advice}" if advice else ""
             woke = clock.now() - self._heard.awake_since <= LASTS
             why = ", as this process stood still (suspended, or in a long handler)" if woke else ""
-            self._log.warn(f"{self._topic} is refused by robot {self._robot}{why}: {words}{todo}")
+            self._log.warn(f"{self._topic} is refused by robot {self._robot}{why}: {sentence}")
         elif before and not words:
             self._log.info(f"what is said on {self._topic} is no longer refused by robot {self._robot}")

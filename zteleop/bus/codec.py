@@ -14,7 +14,8 @@ import msgspec
 from zteleop.control.proof import Proof
 from zteleop.errors import MessageError
 from zteleop.machine.signals import sheltered
-from zteleop.messages import MESSAGES, Message
+from zteleop.messages import MESSAGES, Message, Twist
+from zteleop.messages.message import field_types
 
 MAX_BYTES = 1 << 20
 _JSON = "application/json;"
@@ -37,7 +38,8 @@ def encode(message: Message) -> bytes:
         _reader(kind)(payload)
     except msgspec.ValidationError as error:
         endless = _not_finite(msgspec.to_builtins(message), kind.__name__)  # which JSON writes as null
-        raise MessageError(endless or f"cannot send {kind.__name__}: {error}") from None
+        words = f"cannot send {kind.__name__}: {_not_a_message(message) or error}"
+        raise MessageError(endless or words) from None
     except (TypeError, ValueError, OverflowError) as error:
         raise MessageError(f"cannot send {kind.__name__}: {error}") from None
     return payload
@@ -89,6 +91,16 @@ def pack_proof(proof: Proof) -> bytes:
 def unpack_proof(attachment: bytes) -> Proof | None:
     """Return the proof in an attachment; None when there is none."""
     return Proof._make(_PROOF.unpack(attachment)) if len(attachment) == _PROOF.size else None
+
+
+def _not_a_message(message: Message) -> str:
+    """Return which field holds something else than its message, if one does, and what makes one."""
+    for name, kind in field_types(type(message)).items():
+        value = getattr(message, name)
+        if isinstance(kind, type) and issubclass(kind, Message) and not isinstance(value, kind):
+            planar = "; Twist.planar(0.3, 0.6) is made from m/s and rad/s" * isinstance(message, Twist)
+            return f"expected a {kind.__name__} as {name}, found {value!r:.40}{planar}"
+    return ""
 
 
 def _not_finite(value: Any, path: str) -> str:

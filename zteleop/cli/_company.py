@@ -10,6 +10,11 @@ from zteleop.bus.presence import Endpoint, Kind, process, who_is_here
 from zteleop.bus.topics import TOPICS, topic_of
 from zteleop.errors import meant, nearest
 
+TOLD_BY = {
+    "stop": "; it is said only when somebody stops a robot: zteleop why tells which stops are in force",
+}
+"""topics that are said seldom -> who tells what was said"""
+
 
 def by_topic(endpoints: Iterable[Endpoint]) -> dict[str, list[Endpoint]]:
     """Group by topic; a command topic's sources are one."""
@@ -53,12 +58,13 @@ def disagreements(members: Iterable[Endpoint]) -> Iterator[str]:
 def why_silent(name: Name, endpoints: Iterable[Endpoint], unreached: Sequence[str] = ()) -> str:
     """Return who says nothing on a topic, or which topic may have been meant."""
     endpoints = list(endpoints)
+    told = TOLD_BY.get(name.path, "")
     if speakers := members(name, "pub", endpoints):
         return (
             f"{_people(speakers)} {_verb('publish', speakers)} it, and says nothing now"
-            f"{_instead(name, speakers, endpoints)}"
+            f"{_instead(name, speakers, endpoints)}{told}"
         )
-    return f"nobody publishes it{_others(name, 'pub', endpoints, unreached)}"
+    return f"nobody publishes it{_others(name, 'pub', endpoints, unreached)}{told}"
 
 
 def who_hears(name: Name, endpoints: Iterable[Endpoint], unreached: Sequence[str] = ()) -> str:
@@ -77,7 +83,7 @@ def _instead(name: Name, speakers: list[Endpoint], endpoints: list[Endpoint]) ->
         topic_of(one.topic) for one in endpoints if one.kind == "pub" and (one.robot, one.process) in theirs
     }
     others = sorted(topic.name for topic in said - {own} if own.command and topic.command)
-    return f"; it may speak on {' or '.join(others)} instead" if others else ""
+    return f"; while somebody drives, it may speak on {' or '.join(others)} instead" if others else ""
 
 
 def _others(name: Name, kind: Kind, endpoints: list[Endpoint], unreached: Sequence[str]) -> str:

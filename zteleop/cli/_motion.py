@@ -170,10 +170,11 @@ def add_figure(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def announce(node: Node, twist: Twist) -> None:
-    """Say what is published, as `zteleop pub` would take it."""
+def announce(node: Node, twist: Twist, seconds: float | None) -> None:
+    """Say what is published, as `zteleop pub` would take it, and for how long; None is until Ctrl-C."""
     values = f"{{linear: {{x: {twist.linear.x:.3g}}}, angular: {{z: {twist.angular.z:.3g}}}}}"
-    print(f"says /{node.robot}/cmd_vel Twist '{values}', {1 / PERIOD:.0f} times a second", flush=True)
+    lasts = "until Ctrl-C" if seconds is None else f"for {seconds:.3g} s, or until Ctrl-C"
+    print(f"says /{node.robot}/cmd_vel Twist '{values}', {1 / PERIOD:.0f} times a second {lasts}", flush=True)
 
 
 def went(trail: Trail) -> str:

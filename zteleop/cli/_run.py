@@ -5,10 +5,19 @@ import io
 import re
 import sys
 from importlib import import_module
+from typing import NoReturn
 
 from zteleop.cli import file_of
 from zteleop.processes.ending import in_words
+from zteleop.text.quantity import KINDS
 
+UNITS = {unit for kind in KINDS.values() for unit in kind.units}
+WHERE = {
+    "topic": "zteleop list shows those there are",
+    "node": "zteleop node list shows those there are",
+    "service": "zteleop service list shows those there are",
+}
+"""what a verb wants to be told -> where to find it"""
 _BACKWARDS = re.compile(r"-[\d.]+[a-z°/]+")
 """A measure such as -0.2m/s, which argparse would take for an option."""
 OF_ROS = {
@@ -24,12 +33,21 @@ OF_ROS = {
 """how options begin that are typed out of habit -> what to know instead"""
 
 
+class Parser(argparse.ArgumentParser):
+    """One that says, of a word that is missing, where to find it."""
+
+    def error(self, message: str) -> NoReturn:
+        missing = message.rpartition("required: ")[2].partition(", ")[0]
+        where = WHERE.get(missing, "")
+        super().error(f"{message}; {where}" if where else message)
+
+
 def run_verb(verb: str, text: str, arguments: list[str]) -> int:
     """Run a verb and return its exit code; a traceback only with --debug."""
     if isinstance(sys.stdout, io.TextIOWrapper):  # what a terminal cannot show must not end what shows it
         sys.stdout.reconfigure(errors="backslashreplace")
     module = import_module(f"zteleop.cli.{file_of(verb)}")
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog=f"zteleop {verb}",
         description=f"{text[0].upper()}{text[1:]}.",
         epilog="\n  ".join(["examples:", *module.EXAMPLES]),
@@ -59,4 +77,6 @@ def _unknown(words: list[str], parser: argparse.ArgumentParser) -> str:
         return f"no option {typed}; did you mean {near[0]}?"
     if option:
         return f"no option {option}; {parser.prog} --help shows those there are"
+    if words[0] in UNITS:
+        return f"{words[0]} stands alone; write number and unit together, such as 50cm"
     return f"unrecognized arguments: {' '.join(words)}"

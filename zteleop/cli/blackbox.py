@@ -53,7 +53,8 @@ def run(arguments: argparse.Namespace) -> None:
         print(words, file=sys.stderr if arguments.json else sys.stdout)
     if not what and not arguments.json:
         print(f"({printable(str(path))})")
-        print(f"({_age(recording.header)} old; the next one of a robot that is on comes 1 to 10 s late)")
+        more = "the next comes 1 to 10 s late, and none from a robot that lost its power"
+        print(f"({_age(recording.header)} old; {more})")
 
 
 def _age(header: Header) -> str:

@@ -32,7 +32,7 @@ def run(arguments: argparse.Namespace) -> None:
         motion.look()
         speed = arguments.speed or pace.circle_speed(vehicle, radius)
         twist = Twist.planar(speed, (-speed if arguments.right else speed) / radius)
-        announce(node, twist)
+        announce(node, twist, arguments.laps * tau * radius / speed)
         most = ASTRAY * arguments.laps * tau * radius + 1
         motion.drive(Laps(twist, arguments.laps), lambda trail: told(trail, radius), most=most)
 
@@ -41,7 +41,10 @@ def check(vehicle: Vehicle, radius: float, robot: str) -> None:
     """Raise ConfigError for a circle that is too tight for a vehicle."""
     if radius < (least := pace.least_radius(vehicle)):
         fits = f"{ceil(100 * least)}cm"
-        raise ConfigError(f"{robot} drives no circle of {radius:g} m: its steering allows {fits}, and wider")
+        raise ConfigError(
+            f"expected a radius of {fits} or more, as {robot} steers no tighter, found {100 * radius:g}cm; "
+            f"zteleop circle {fits} is the tightest it drives"
+        )
 
 
 def told(trail: Trail, wanted: float) -> str:

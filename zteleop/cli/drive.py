@@ -33,7 +33,7 @@ def run(arguments: argparse.Namespace) -> None:
     twist = to_twist(arguments.motion)
     with _options.join("drive", _options.load(arguments)) as node:
         motion = Motion("drive", node)
-        announce(node, twist)
+        announce(node, twist, arguments.lasts)
         motion.drive(Steady(twist, arguments.lasts), went, by_sight=False)
 
 

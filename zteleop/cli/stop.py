@@ -24,7 +24,7 @@ TELL_AFTER = 1.0
 """s until it says for whom it waits"""
 SOON = 0.6
 """s in which a robot that is there has answered"""
-GOES_ON = f"goes on saying so until {REPEAT:g} s are over, to whoever comes late; Ctrl-C ends that"
+GOES_ON = f"goes on saying so until {REPEAT:g} s are over, to whoever comes late; the stop outlasts this"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

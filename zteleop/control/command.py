@@ -41,21 +41,6 @@ def asks_in_vain(message: Message) -> bool:
     return isinstance(twist, Twist) and twist != Twist.zero() and not twist.moves
 
 
-def beyond_ends(message: Message, vehicle: Vehicle | None) -> str:
-    """Say which ticks lie beyond a servo's ends, and what is obeyed in their place; nothing of others."""
-    if not isinstance(message, Pwm) or vehicle is None:
-        return ""
-    asked = {"steering": message.steering_ticks, "throttle": message.throttle_ticks}
-    for channel in vehicle.channels:
-        low, high = sorted((channel.min_ticks, channel.max_ticks))
-        ticks = asked.get(channel.name, low)
-        if not low - 1 <= ticks <= high + 1:  # as far as rounding goes
-            end = high if ticks > high else low
-            tick = f"a tick is {vehicle.tick_us:.3g} us"
-            return f"{channel.name} {ticks} ticks is obeyed as {end}, its end; {tick}"
-    return ""
-
-
 def steers_only(message: Message, vehicle: Vehicle | None) -> bool:
     """Say whether a twist asks a car to turn on the spot, which turns its front wheels and nothing else."""
     twist = message.twist if isinstance(message, TwistStamped) else message

@@ -52,8 +52,12 @@ class Lever:
 
     @property
     def ticks(self) -> int:
-        span = self._span(self.steps)
-        moved = min(abs(self.steps) * self._step + self.channel.dead_ticks, abs(span)) if self.steps else 0
+        return self.ticks_at(self.steps)
+
+    def ticks_at(self, steps: int) -> int:
+        """Return the ticks of so many steps; 1 is left or forward."""
+        span = self._span(steps)
+        moved = min(abs(steps) * self._step + self.channel.dead_ticks, abs(span)) if steps else 0
         return self.channel.neutral_ticks + (moved if span > 0 else -moved)
 
     @property

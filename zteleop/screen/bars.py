@@ -69,9 +69,12 @@ def in_steps(d: Dashboard, axis: Axis, room: int) -> Reach:
     plus, minus, rest = words_of(d, axis)
     put_out = lever.count(out := out_ticks(d, axis, found.neutral_ticks))
     told = count or put_out  # another one may drive
+    off = (ticks if count else out) - found.neutral_ticks
     words = f"{plus if told > 0 else minus} {abs(told)}/{lever.most(told)}" if told else rest
     if told and d.task.unmeasured:  # a servo may be built in upside down
-        words = f"{(ticks if count else out) - found.neutral_ticks:+d} ticks"
+        words = f"{off:+d} ticks"
+    elif told and lever.ticks_at(told) != found.neutral_ticks + off:  # another one's, who drives in no steps
+        words = f"{plus if told > 0 else minus} {abs(off)} tick{'s'[: abs(off) - 1]}"
     # steering grows to the right for right, which is the negative side of the axis
     sign = -1 if axis == "steering" else 1
     return Reach(sign * share(count / most, cells), sign * share(put_out / most, cells), cells, words)

@@ -86,12 +86,22 @@ def _entries(
     fields = {field.encode_name: field for field in msgspec.structs.fields(cls)}
     for name in values:
         if name not in fields:
-            yield Mistake((*path, name), f"no such setting; {nearest(name, fields)}")
+            meant_by_it = _elsewhere(name, fields, path) or nearest(name, fields)
+            yield Mistake((*path, name), f"no such setting; {meant_by_it}")
     for name, field in fields.items():
         if name in values:
             yield from mistakes(values[name], field.type, kinds, (*path, name))
         elif field.required:
             yield Mistake(path, f"expected {name} as well")
+
+
+def _elsewhere(name: str, fields: Mapping[str, msgspec.structs.FieldInfo], path: Path) -> str:
+    """Ask, of a name that one of the tables below has, whether that is meant; nothing of others."""
+    for outer, field in fields.items():
+        inner = _bare(inspect.type_info(field.type))
+        if isinstance(inner, inspect.StructType) and name in inner.cls.__struct_encode_fields__:
+            return f"did you mean {'.'.join((*path, outer, name))}?"
+    return ""
 
 
 def _whole(values: dict[str, object], cls: Any, path: Path) -> Iterator[Mistake]:

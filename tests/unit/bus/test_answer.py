@@ -92,7 +92,9 @@ def test_it_says_what_to_do(sender: Sender, why: str) -> None:
     sender.refuse(why)
     sender.say()
     (line,) = sender.news
-    assert f"{why}; {ADVICE[why]}" in line if why in ADVICE else ";" in why
+    fact = why.partition("; ")[0]
+    assert line.endswith(f": {fact}; {ADVICE[why]}" if why in ADVICE else f": {why}")
+    assert why in ADVICE or ";" in why
 
 
 def test_what_keeps_the_robot_at_rest_is_said_with_it(sender: Sender) -> None:
@@ -169,7 +171,7 @@ def test_who_asks_for_what_no_wheels_do_is_told(sender: Sender) -> None:
 
 @pytest.mark.parametrize(
     ("is_program", "advice"),
-    [(True, "start this anew (a program may let_go())"), (False, "let go of everything, and begin anew")],
+    [(True, "start this anew, or let_go() in a program"), (False, "let go of everything, and begin anew")],
 )
 @pytest.mark.parametrize("refusal", [Refusal.BEFORE_RELEASE, Refusal.HELD, Refusal.WAITED])
 def test_who_is_refused_is_told_what_it_can_do(
@@ -180,6 +182,53 @@ def test_who_is_refused_is_told_what_it_can_do(
     sender.say()
     (line,) = sender.news
     assert advice in line
+    assert "pause for 2 s" not in line, "one advice is enough"
+    assert line.count(";") == 1
+    assert sender.answer.refused == refusal, "which is the robot's, for screens"
+
+
+FAST, TIGHT, BOTH = Twist.planar(30.0), Twist.planar(0.5, 2.0), Twist.planar(30.0, 100.0)
+TOO_FAST = "30 m/s is obeyed as 3.00, the most it does"
+TOO_TIGHT = "a circle of 0.25 m in radius is obeyed as one of 0.59 m, its tightest"
+
+
+@pytest.mark.parametrize(
+    ("twist", "told"),
+    [
+        (FAST, [TOO_FAST]),
+        (TwistStamped(Header.zero(), TIGHT), [TOO_TIGHT]),
+        (BOTH, [TOO_FAST, "a circle of 0.30 m in radius is obeyed as one of 0.59 m, its tightest"]),
+        (Twist.planar(-30.0), [TOO_FAST]),
+        (Twist.planar(2.0, 3.3), []),
+        (Twist.planar(float("inf")), []),
+    ],
+)
+def test_a_program_that_asks_for_more_than_a_car_does_is_told_once_what_is_obeyed(
+    sender: Sender, clock: Clock, twist: Twist | TwistStamped, told: list[str]
+) -> None:
+    sender.advise(twist, True)
+    assert sender.news == [], "nobody knows yet what it drives"
+    sender.heard.vehicle = to_vehicle(DriveSettings(), 4.8)
+    for _ in range(2):
+        sender.advise(twist, True)
+        clock.pass_by(60.0)  # when the log would tell it again
+    expected = [f"nose: warning: what is said on cmd_vel is more than the robot does: {one}" for one in told]
+    assert sender.news == expected
+
+
+def test_who_turns_on_the_spot_faster_than_it_can_is_told(sender: Sender) -> None:
+    sender.heard.vehicle = to_vehicle(TANK, 4.8)
+    sender.advise(Twist.planar(0.0, -50.0), True)
+    (line,) = sender.news
+    assert "more than the robot does: 50 rad/s is obeyed as" in line
+    assert line.endswith("the most it turns")
+
+
+def test_an_operator_who_holds_more_than_a_car_does_sees_it_on_the_screen(clock: Clock) -> None:
+    sender = Sender(clock, is_program=False)
+    sender.heard.vehicle = to_vehicle(DriveSettings(), 4.8)
+    sender.advise(BOTH, True)
+    assert sender.news == []
 
 
 @pytest.mark.parametrize(("is_program", "told"), [(True, 1), (False, 0)])
@@ -318,7 +367,7 @@ def test_a_program_that_was_told_of_a_turn_is_a_program_still(clock: Clock) -> N
     sender.say()
     told, refused = sender.news
     assert "a car turns only while it drives" in told
-    assert "a program may let_go()" in refused
+    assert "let_go() in a program" in refused
 
 
 @pytest.mark.parametrize("was_heard", [True, False])

@@ -120,6 +120,15 @@ def test_what_json_cannot_say_is_refused(message: Message) -> None:
         codec.encode(message)
 
 
+def test_numbers_for_vectors_are_told_with_what_makes_a_twist() -> None:
+    with pytest.raises(MessageError) as error:
+        codec.encode(Twist(0.3, 0.6))  # type: ignore[arg-type]
+    words = "expected a Vector3 as linear, found 0.3; Twist.planar(0.3, 0.6) is made from m/s and rad/s"
+    assert str(error.value) == f"cannot send Twist: {words}"
+    with pytest.raises(MessageError, match=r"expected a Header as header, found None$"):
+        codec.encode(TwistStamped(None, Twist.planar()))  # type: ignore[arg-type]
+
+
 @pytest.mark.parametrize(
     ("payload", "words"),
     [

@@ -78,7 +78,7 @@ def test_the_newest_is_told_as_a_timeline(
         f"     0.00 s  link lost: {WHY}   <- written because of this",
         "    +1.00 s  idle: nobody\\u001b[31m\\u000ax",
         f"({path})",
-        "(2 h 3 min 5 s old; the next one of a robot that is on comes 1 to 10 s late)",
+        "(2 h 3 min 5 s old; the next comes 1 to 10 s late, and none from a robot that lost its power)",
     ]
 
 

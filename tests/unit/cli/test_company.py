@@ -46,6 +46,11 @@ def test_a_commands_sources_and_names_are_one_topic() -> None:
         ("abe/cmd_vel", "nobody publishes it now"),
         ("abe/rosout", "nobody publishes it; known: log, odom"),
         (
+            "abe/stop",
+            "nobody publishes it now; it is said only when somebody stops a robot: "
+            "zteleop why tells which stops are in force",
+        ),
+        (
             "abee/odom",
             "nobody publishes it; robot abee is not heard; heard here: abe, zoe; did you mean abe?",
         ),
@@ -55,6 +60,13 @@ def test_a_silence_says_who_says_nothing_or_what_was_meant(topic: str, words: st
     mine = [end("odmo", "sub", "echo", process()), end("odom", "sub", "echo", process(), "abee")]
     astray = end("odom", "sub", "echo", "pi-9", "abee")  # somebody else waits for that robot, too
     assert why_silent(resolve(topic, None), [*mine, astray, *ABE, *ZOE]) == words
+
+
+def test_who_drives_in_one_way_is_silent_on_the_topic_of_the_other() -> None:
+    keys = [end(topic, "pub", "keyboard") for topic in ("cmd_vel/keyboard", "pwm/keyboard")]
+    words = "keyboard on pi-7 publishes it, and says nothing now; while somebody drives, it may speak on"
+    assert why_silent(resolve("abe/cmd_vel", None), keys) == f"{words} pwm instead"
+    assert why_silent(resolve("abe/pwm", None), keys) == f"{words} cmd_vel instead"
 
 
 def test_two_who_say_nothing_are_two() -> None:

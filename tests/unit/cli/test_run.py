@@ -102,6 +102,24 @@ def test_a_reader_that_left_is_no_error_to_talk_about(
     assert capfd.readouterr().err == ""
 
 
+def test_a_unit_that_stands_alone_is_written_beside_its_number(
+    verb: Verb, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit):
+        _run.run_verb("circle", "drive a circle", ["50", "cm"])
+    assert "cm stands alone; write number and unit together, such as 50cm" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("name", "verb"), [("echo", "list"), ("param get", "node list")])
+def test_who_names_nothing_is_told_where_the_names_are(
+    name: str, verb: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as ending:
+        _run.run_verb(name, "do it", [])
+    assert ending.value.code == 2
+    assert f"zteleop {verb} shows those there are" in capsys.readouterr().err
+
+
 def test_a_wrong_argument_is_a_usage_error(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as ending:
         _run.run_verb("check", "check a config file", ["a", "b"])

@@ -131,7 +131,7 @@ def test_a_stop_says_how_to_release_it_and_why_it_goes_on(latch: Latch, typed: T
         0,
         "archangel is stopped (neutral read back from the chip within 10 ms); "
         "zteleop stop --release archangel lets it drive again, from neutral\n"
-        "goes on saying so until 3 s are over, to whoever comes late; Ctrl-C ends that\n",
+        "goes on saying so until 3 s are over, to whoever comes late; the stop outlasts this\n",
         "",
     )
     assert [(stop.by, stop.why) for stop in latch.stops] == [("ann@desk", "a cat")]

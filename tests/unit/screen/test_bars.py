@@ -120,6 +120,9 @@ def test_while_another_drives_the_words_are_of_what_is_put_out(car, tank):
     said = status(applied=Twist.planar(-0.1, 0.5))
     shown = texts(bar_lines(dashboard("hold", tank, status=said), 80, False))
     assert [line.rpartition("]  ")[2] for line in shown] == ["left", "reverse"]
+    said = status(pulses=pulses(car, {"steering": 376, "throttle": 371}))
+    shown = texts(bar_lines(dashboard("step", car, status=said), 80, False))
+    assert [line.rpartition("]  ")[2] for line in shown] == ["left 1 tick", "forward 1/30"], "of 15 a step"
 
 
 @pytest.mark.parametrize(

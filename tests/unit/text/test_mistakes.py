@@ -23,12 +23,17 @@ class Tank(Struct, tag="tank", tag_field="kind", frozen=True, forbid_unknown_fie
     track: float = 0.2
 
 
+class Frame(Struct, forbid_unknown_fields=True):
+    width: float = 0.5
+
+
 class Robot(Struct, forbid_unknown_fields=True):
     name: str | None = None
     mode: Literal["peer", "client"] = "peer"
     on: bool = True
     connect: list[str] = []
     wheels: dict[str, Wheel] = {}
+    frame: Frame | None = None
     body: Car | Tank = Car()
     extra: dict[str, dict[str, Any]] = {}
 
@@ -50,6 +55,7 @@ def told(values: object) -> list[str]:
         ({}, []),
         ({"name": "abe", "body": {"kind": "tank", "track": 1}, "extra": {"new": {"any": 1}}}, []),
         ({"nmae": "abe"}, ["nmae: no such setting; did you mean name?"]),
+        ({"width": 1}, ["width: no such setting; did you mean frame.width?"]),
         ({"mode": "pear"}, ["mode: expected 'client' or 'peer', found 'pear'; did you mean peer?"]),
         ({"mode": 3}, ["mode: expected 'client' or 'peer', found 3"]),
         ({"on": "yes"}, ["on: expected true or false, found 'yes'"]),
