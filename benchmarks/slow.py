@@ -14,6 +14,7 @@ import time
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
+from typing import Any
 
 import key_to_wheel
 from figures import command_line, median, p99, print_table
@@ -69,8 +70,16 @@ def certificate(times: int) -> Iterator[list[object]]:
             cwd=folder,
         )
     for one in json.loads(found.stdout)["verdicts"]:
-        what = f"broken: {one['broken'][0]}" if one["broken"] else f"kept, {one['void']} of them void"
-        yield [one["fault"], *(_ms(one[name]) for name in ("median", "worst", "bound")), what]
+        yield [one["fault"], *(_ms(one[name]) for name in ("median", "worst", "bound")), _verdict(one)]
+
+
+def _verdict(one: dict[str, Any]) -> str:
+    """Return what came of a fault, which may be nothing: there everything waits for a core."""
+    waited = f"{1000 * one['longest_wait']:.0f} ms at most"
+    void = f"{one['void']} void: late by what they waited for a core, {waited}"
+    if one["broken"]:
+        return f"BROKEN: {one['broken'][0]}"
+    return (f"kept, {void}" if one["void"] else "kept") if one["times"] else f"NOT JUDGED, {void}"
 
 
 def time_python() -> float:
@@ -83,7 +92,7 @@ def time_python() -> float:
     return median(times)
 
 
-def _ms(seconds: float | None) -> object:
+def _ms(seconds: float | None) -> float | str:
     return "" if seconds is None else 1000 * seconds
 
 

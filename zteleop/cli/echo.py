@@ -104,6 +104,7 @@ def run(arguments: argparse.Namespace) -> None:
                 ears.loop.stop()
 
         ears.hear(name, show, arguments.since)
+        wanted.prepare()  # while the first message is on its way
         if wait is not None:
             silence.ring_at(clock.now() + wait)
         telling = ears.loop.alarm(tell)
@@ -136,6 +137,9 @@ class Wanted:
     def check(self, name: Name) -> None:
         """Raise MessageError where no message of the topic can have what is asked for."""
         self._selection.check_types(topic_of(name.path).types, str(name))
+
+    def prepare(self) -> None:
+        """Load what it takes to print a message."""
         if not self._raw:
             self._form.prepare()
 

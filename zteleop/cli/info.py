@@ -33,21 +33,35 @@ def lines(members: list[Endpoint], verbose: bool) -> Iterable[str]:
     yield f"Type: {', '.join(types_of(members))}"
     yield from (f"Types disagree: {words}" for words in _company.disagreements(members))
     for kind, (called, _) in KINDS.items():
-        those = [member for member in members if member.kind == kind]
+        nodes = _by_node(member for member in members if member.kind == kind)
         if verbose:
             yield ""
-        yield f"{called} count: {len(those)}"
+        yield f"{called} count: {len(nodes)}"
         if verbose:
-            for member in those:
-                yield from ("", *_endpoint(member))
+            for those in nodes:
+                yield from ("", *_node(those))
 
 
-def _endpoint(member: Endpoint) -> Iterable[str]:
-    yield f"Node name: {member.node}"
-    yield f"Node namespace: /{member.robot}"
-    yield f"Process: {member.process}"
-    yield f"Topic: /{member.robot}/{member.topic}"
-    yield f"Topic type: {member.type}"
-    if member.hash:
-        yield f"Topic type hash: {member.hash}"
-    yield f"Endpoint type: {KINDS[member.kind][1]}"
+def _by_node(members: Iterable[Endpoint]) -> list[list[Endpoint]]:
+    """Group by node: one that says a command by each of its keys says it once."""
+    found: dict[tuple[str, str, str], list[Endpoint]] = {}
+    for member in members:
+        found.setdefault((member.robot, member.node, member.process), []).append(member)
+    return list(found.values())
+
+
+def _node(those: list[Endpoint]) -> Iterable[str]:
+    """Yield who it is, and what it says or hears, which may be several of a topic's keys and types."""
+    first = those[0]
+    yield f"Node name: {first.node}"
+    yield f"Node namespace: /{first.robot}"
+    yield f"Process: {first.process}"
+    yield f"Topic: {_each(f'/{one.robot}/{one.topic}' for one in those)}"
+    yield f"Topic type: {_each(one.type for one in those)}"
+    if hashes := _each(one.hash for one in those):
+        yield f"Topic type hash: {hashes}"
+    yield f"Endpoint type: {KINDS[first.kind][1]}"
+
+
+def _each(names: Iterable[str]) -> str:
+    return ", ".join(filter(None, dict.fromkeys(names)))

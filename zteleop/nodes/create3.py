@@ -2,6 +2,8 @@
 
 from functools import partial
 
+from msgspec.structs import replace
+
 from zteleop.bus import clock
 from zteleop.bus.node import Node
 from zteleop.bus.subscription import Received
@@ -50,16 +52,26 @@ SENSED, TOLD, NOTED = 0.05, 1.0, 0.05
 
 
 class Equipment:
-    """All that a simulated Create 3 says and hears of itself; `world` is what its bumpers feel."""
+    """All that a simulated Create 3 says and hears of itself; `world` is what its bumpers feel.
 
-    def __init__(self, node: Node, robot: Create3, world: World | None, unit: Inertial | None = None) -> None:
+    `charge` is what its battery has at the start, 0 to 1.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        robot: Create3,
+        world: World | None,
+        unit: Inertial | None = None,
+        charge: float = 1.0,
+    ) -> None:
         self._node = node
         self._robot = robot
         self._world = world
         self._unit = unit or Inertial()
         self._buttons = Buttons()
         self._switched: dict[Name, bool] = {}
-        self._battery = Battery(PACK)
+        self._battery = Battery(replace(PACK, percentage=charge))
         self._lights = Lightring()
         self._notes = Notes()
         self._limited = False

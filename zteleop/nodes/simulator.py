@@ -58,7 +58,7 @@ class Simulated(NamedTuple):
     camera: bool = False
     """it has one, and says what that sees"""
     charge: float = 1.0
-    """of its battery at the start; a Create 3's is full"""
+    """of its battery at the start"""
 
 
 def run(
@@ -86,7 +86,7 @@ def run(
     if world and simulated.camera:
         take_pictures(node, Camera(simulated.scene or Scene()), world)
     if isinstance(vehicle, Create3):
-        Equipment(node, vehicle, world, Inertial(simulated.noise, Random(simulated.seed)))
+        Equipment(node, vehicle, world, Inertial(simulated.noise, Random(simulated.seed)), simulated.charge)
     else:
         give_power(node, vehicle, Battery(BatterySettings(percentage=simulated.charge)))
     registers = open_registers(path)

@@ -82,6 +82,19 @@ def test_a_topic_is_told_in_the_words_of_ros() -> None:
     ]
 
 
+def test_one_who_says_a_command_by_several_keys_is_one_and_its_keys_stand_together() -> None:
+    twists = [end(f"cmd_vel/{source}", "sub", "actuator", STAMPED) for source in ("keyboard", "program")]
+    other = end("cmd_vel/program", "sub", "actuator", TWIST)
+    listener = end("cmd_vel/**", "sub", "echo", STAMPED)
+    assert list(info.lines([*twists, other, listener], verbose=False))[1:] == [
+        "Publisher count: 0",
+        "Subscription count: 2",
+    ]
+    said = list(info.lines([*twists, other], verbose=True))
+    assert "Topic: /abe/cmd_vel/keyboard, /abe/cmd_vel/program" in said
+    assert f"Topic type: {STAMPED}, {TWIST}" in said
+
+
 def test_a_topic_that_nobody_has_is_unknown_and_the_nearest_is_told() -> None:
     with pytest.raises(BusError, match=r"Unknown topic '/abe/drive_statu'; did you mean drive_status"):
         HERE.topic("drive_statu")
