@@ -4,9 +4,11 @@ from zteleop.control.mixer import Ackermann
 from zteleop.control.settings import DONKEYCAR
 from zteleop.control.vehicles import VEHICLES
 from zteleop.nodes.battery import LOW, give_power
+from zteleop.nodes.create3 import Equipment
 from zteleop.sim import make_vehicle
 from zteleop.sim.battery import Battery, BatterySettings
 from zteleop.sim.car import Car
+from zteleop.sim.create3.body import Create3
 from zteleop.testing import Clock, FakeNode
 
 FULL_THROTTLE = {0: DONKEYCAR["throttle"].max_us, 1: DONKEYCAR["steering"].neutral_us}
@@ -51,6 +53,12 @@ def test_a_tank_with_half_of_its_voltage_is_half_as_fast() -> None:
     for _ in range(300):
         tank.step(full, 0.01)
     assert tank.speed == pytest.approx(built.mixer.max_speed / 2, rel=0.01)
+
+
+def test_a_create3_begins_with_what_is_asked_for_too(node: FakeNode) -> None:
+    Equipment(node, Create3(VEHICLES["create3"].servos), None, charge=0.2)
+    node.loop.live(3)
+    assert node.said["battery_state"].messages[0].percentage == pytest.approx(0.2, abs=0.01)
 
 
 def test_it_runs_down_in_the_better_part_of_an_hour_at_full_speed(node: FakeNode) -> None:
