@@ -13,6 +13,7 @@ VERBS = {
     "circle": "drive a circle, and say how wide it was",
     "square": "drive a square, and say how far from its start it ended",
     "goto": "drive to a place, and say how near it came",
+    "web": "drive from a page in a browser, and see where it goes",
     "keys": "show what your terminal sends for each key, and what that does",
     "actuator": "obey commands: turn them into pulses for servos and ESCs",
     "stop": "stop a robot until it is released",

@@ -77,9 +77,8 @@ export function padded(pads) {
  * Let a finger hold the stick: from where it lands, as far as it goes.
  * @param {HTMLElement} pad
  * @param {Held} held
- * @param {(x: number, y: number) => void} show where the knob is, -1 to 1, to the right and down
  */
-export function touch(pad, held, show) {
+export function touch(pad, held) {
   let [x, y] = [0, 0];
   pad.addEventListener("pointerdown", (event) => {
     pad.setPointerCapture(event.pointerId);
@@ -92,11 +91,9 @@ export function touch(pad, held, show) {
     const reach = pad.clientWidth / 2;
     const [right, down] = [within((event.clientX - x) / reach), within((event.clientY - y) / reach)];
     held.finger = { drive: -down, turn: -right };
-    show(right, down);
   });
   for (const end of ["pointerup", "pointercancel", "lostpointercapture"])
     pad.addEventListener(end, () => {
       held.finger = null;
-      show(0, 0);
     });
 }

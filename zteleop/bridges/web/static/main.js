@@ -8,6 +8,7 @@ import { Top } from "./top.js";
 
 const TOPICS = ["drive_status", "vehicle", "odom", "scene", "battery_state", "watchdog", "camera/image/compressed"];
 const SILENT = 500; // ms without a status after which it is not so any more
+const SOON = 600; // ms in which a robot that is there has answered
 const KEY = "zteleop.token";
 
 /**
@@ -35,7 +36,7 @@ history.replaceState(null, "", location.pathname);
 
 const held = new Held(document);
 const view = new Top(at("top"));
-const known = { you: "", holder: "", obeyed: false, refused: "", vehicle: /** @type {any} */ (null), heard: 0 };
+const known = { you: "", holder: "", obeyed: false, refused: "", vehicle: /** @type {any} */ (null), heard: 0, since: 0, met: false, x: 0, y: 0 };
 const eye = new Eye(at("eye"), (words) => show("camera", words));
 const bus = new Bus(token, () => stick(), hear, (picture) => eye.see(picture), connected);
 bus.topics.push(...TOPICS);
@@ -44,13 +45,28 @@ bus.topics.push(...TOPICS);
 function stick() {
   const now = held.stick();
   at("stick").dataset.held = String(now.deadman && known.obeyed);
+  knob(-now.turn, -now.drive);
   return { ...now, drive: now.drive * share("forward"), turn: now.turn * share("turning") };
+}
+
+/**
+ * Show what is held, by whatever holds it.
+ * @param {number} x -1 to 1, to the right
+ * @param {number} y -1 to 1, down
+ */
+function knob(x, y) {
+  if (x === known.x && y === known.y) return;
+  [known.x, known.y] = [x, y];
+  at("knob").style.setProperty("--x", String(x));
+  at("knob").style.setProperty("--y", String(y));
 }
 
 /** @param {boolean} open */
 function connected(open) {
   known.heard = 0;
-  if (!open) tell("away", "not connected: looking for the server", "");
+  known.met = known.met || open;
+  const why = known.met ? "is zteleop web still running?" : "open the address that zteleop web has printed last";
+  if (!open) tell("away", "not connected", `looking for the server: ${why}`);
 }
 
 /**
@@ -110,9 +126,7 @@ function status(said) {
   const who = said.operator ? `${said.source} ${said.operator.slice(-4).padStart(4, "0")}` : "";
   const mine = known.obeyed && known.holder === known.you;
   const word = said.state === "driving" ? (mine ? "driving, you operate" : `driving, ${who} operates`) : said.state;
-  const asks = known.holder === known.you && held.stick().deadman;
-  const why = asks && !known.obeyed && known.refused ? `you are not obeyed: ${known.refused}` : said.why;
-  tell(said.state, word, why);
+  tell(said.state, word, disobeyed(said.state) || said.why);
   show("asked", twisted(said.wanted));
   show("allowed", twisted(said.applied) + (said.slowed ? `, at most ${said.max_speed.toFixed(2)} m/s: ${said.slowed}` : ""));
   show("out", said.pulses.map((/** @type {any} */ p) => `${p.name} ${p.duty_ticks} (${p.pulse_us.toFixed(0)} us)`).join(", ") || "-");
@@ -120,6 +134,20 @@ function status(said) {
   at("release").hidden = !said.stops.length;
   for (const pulse of said.pulses)
     if (pulse.name === "steering" && known.vehicle) view.wheels = pulse.fraction * known.vehicle.max_steering_angle;
+}
+
+/**
+ * @param {string} state of the robot
+ * @returns {string} why what this page holds moves nothing; nothing where it does, or the robot says why itself
+ */
+function disobeyed(state) {
+  const asks = held.stick().deadman;
+  if (!asks || known.obeyed) known.since = performance.now();
+  if (!asks || known.obeyed) return "";
+  if (known.refused) return `you are not obeyed: ${known.refused}`;
+  if (state !== "idle" || performance.now() - known.since < SOON) return "";
+  const other = known.holder && known.holder !== known.you;
+  return `you are not obeyed: ${other ? `${known.holder} has the wheel` : "let go, and begin anew"}`;
 }
 
 /** @param {any} said zteleop_msgs/msg/Vehicle */
@@ -183,10 +211,7 @@ at("stop").addEventListener("click", () => bus.wish("stop"));
 at("release").addEventListener("click", () => bus.wish("release"));
 at("take").addEventListener("click", () => bus.wish("take"));
 at("hand-over").addEventListener("click", () => bus.wish("hand over"));
-touch(at("stick"), held, (x, y) => {
-  at("knob").style.setProperty("--x", String(x));
-  at("knob").style.setProperty("--y", String(y));
-});
+touch(at("stick"), held);
 setInterval(() => {
   if (known.heard && performance.now() - known.heard > SILENT) {
     known.heard = 0;

@@ -68,7 +68,7 @@ export class Top {
     pen.scale(zoom, -zoom);
     pen.translate(-x, -y);
     const hair = 1 / zoom;
-    this.drawGrid(pen, hair, ink("--line"), [x, y], [wide / zoom / 2, high / zoom / 2]);
+    this.drawGrid(pen, hair, [ink("--line"), ink("--faint")], [x, y], [wide / zoom / 2, high / zoom / 2]);
     pen.lineWidth = 2 * hair;
     pen.strokeStyle = ink("--faint");
     for (const { points, closed } of this.scene) line(pen, points, closed);
@@ -89,11 +89,11 @@ export class Top {
   /**
    * @param {CanvasRenderingContext2D} pen
    * @param {number} hair
-   * @param {string} ink
+   * @param {[string, string]} inks of the lines, and of their measure
    * @param {[number, number]} middle
    * @param {[number, number]} half
    */
-  drawGrid(pen, hair, ink, [x, y], [wide, high]) {
+  drawGrid(pen, hair, [ink, faint], [x, y], [wide, high]) {
     const step = GRID.find((one) => one / hair > 48) || 100;
     pen.strokeStyle = ink;
     pen.lineWidth = hair;
@@ -109,9 +109,9 @@ export class Top {
     pen.stroke();
     pen.save();
     pen.setTransform(devicePixelRatio || 1, 0, 0, devicePixelRatio || 1, 0, 0);
-    pen.fillStyle = ink;
+    pen.fillStyle = faint;
     pen.font = "12px system-ui, sans-serif";
-    pen.fillText(`${step} m`, 8, this.canvas.clientHeight - 8);
+    pen.fillText(`a square is ${step} m`, 8, this.canvas.clientHeight - 8);
     pen.restore();
   }
 

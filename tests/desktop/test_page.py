@@ -1,0 +1,158 @@
+"""The cockpit's page in a real browser: what is held there moves a real robot, and what is let go ends it."""
+
+import re
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import pytest
+from playwright.sync_api import Browser, Page, expect, sync_playwright
+from processes import Process
+from rig import NEUTRAL, Rig, until
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+pytestmark = pytest.mark.skipif(not CHROMIUM, reason="not here: chromium (Debian: chromium)")
+STEERING, THROTTLE = 0, 1
+WITHIN = 60_000
+"""ms that a browser may take on a machine that has much else to do"""
+SIZES = {"phone": (390, 844), "tablet": (820, 1180), "desktop": (1440, 900)}
+expect.set_options(timeout=WITHIN)
+
+
+@pytest.fixture(scope="module")
+def rig(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Rig]:
+    with Rig(tmp_path_factory.mktemp("page")) as bench:
+        bench.actuator()
+        bench.join("sim")
+        yield bench
+
+
+@pytest.fixture(scope="module")
+def server(rig: Rig) -> Process:
+    process = rig.join("web", "--port", "0")
+    process.says("open http://127.0.0.1:")
+    return process
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    with sync_playwright() as player:
+        opened = player.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"], timeout=WITHIN)
+        yield opened
+        opened.close()
+
+
+@contextmanager
+def opened(browser: Browser, server: Process, size: str = "desktop") -> Iterator[Page]:
+    """Open the address that the server has printed; nothing may be wrong in the page until it is closed."""
+    found = re.search(r"http://\S+", server.text)
+    assert found
+    wide, high = SIZES[size]
+    context = browser.new_context(viewport={"width": wide, "height": high})
+    context.set_default_timeout(WITHIN)
+    page, wrong = context.new_page(), list[str]()
+    page.on("pageerror", lambda error: wrong.append(str(error)))
+    page.on("console", lambda said: wrong.append(said.text) if said.type == "error" else None)
+    page.goto(found[0])
+    expect(page.locator("#state")).to_have_text("idle")
+    yield page
+    context.close()
+    assert wrong == []
+
+
+def drives(rig: Rig) -> None:
+    until(lambda: (rig.ticks[THROTTLE] or 0) > NEUTRAL[THROTTLE], "it drives")
+
+
+def rests(rig: Rig) -> None:
+    until(lambda: rig.ticks == tuple(NEUTRAL), "it rests")
+
+
+def test_keys_drive_while_they_are_held_several_at_once(rig: Rig, browser: Browser, server: Process) -> None:
+    with opened(browser, server) as page:
+        page.keyboard.down("KeyW")
+        drives(rig)
+        expect(page.locator("#state")).to_have_text("driving, you operate")
+        page.keyboard.down("ArrowLeft")
+        until(lambda: (rig.ticks[STEERING] or 0) > NEUTRAL[STEERING], "it steers as well")
+        page.keyboard.up("ArrowLeft")
+        until(lambda: rig.ticks[STEERING] == NEUTRAL[STEERING], "straight ahead")
+        drives(rig)
+        page.keyboard.up("KeyW")
+        rests(rig)
+        expect(page.locator("#state")).to_have_text("idle")
+        expect(page.locator("#why")).to_have_text("nobody drives")
+
+
+@pytest.mark.parametrize("lost", ["blur", "pagehide"])
+def test_a_page_that_loses_keys_holds_none(rig: Rig, browser: Browser, server: Process, lost: str) -> None:
+    with opened(browser, server) as page:
+        page.keyboard.down("ArrowUp")
+        drives(rig)
+        page.evaluate("name => window.dispatchEvent(new Event(name))", lost)
+        rests(rig)
+
+
+def test_a_page_that_is_closed_or_loaded_anew_lets_go(rig: Rig, browser: Browser, server: Process) -> None:
+    with opened(browser, server) as page:
+        page.keyboard.down("ArrowUp")
+        drives(rig)
+        page.reload()
+        rests(rig)
+        expect(page.locator("#state")).to_have_text("idle")
+        page.keyboard.up("ArrowUp")
+        page.keyboard.down("ArrowUp")
+        drives(rig)
+    rests(rig)
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_a_finger_on_the_stick_drives_while_it_is_there(
+    rig: Rig, browser: Browser, server: Process, size: str
+) -> None:
+    with opened(browser, server, size) as page:
+        box = page.locator("#stick").bounding_box()
+        assert box
+        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+        page.mouse.move(x, y)
+        page.mouse.down()
+        page.mouse.move(x, y - box["height"] / 2)
+        drives(rig)
+        page.mouse.up()
+        rests(rig)
+        for name in ("#stop", "#stick", "#state", "#top"):
+            expect(page.locator(name)).to_be_in_viewport(ratio=1.0)
+
+
+def test_whoever_watches_stops_it_and_releases_it_with_intent(
+    rig: Rig, browser: Browser, server: Process
+) -> None:
+    with opened(browser, server) as ann, opened(browser, server, "phone") as bob:
+        ann.keyboard.down("ArrowUp")
+        drives(rig)
+        expect(bob.locator("#pages")).to_have_text(re.compile("page .* has the wheel, 2 pages are open"))
+        bob.get_by_role("button", name="STOP").click()
+        rests(rig)
+        for page in (ann, bob):
+            expect(page.locator("#state")).to_have_text("stopped")
+        bob.get_by_role("button", name="release").click()
+        expect(ann.locator("#state")).to_have_text("idle")
+        expect(ann.locator("#why")).to_have_text(re.compile("you are not obeyed: .*let go"))
+        rests(rig)
+        ann.keyboard.up("ArrowUp")
+        ann.keyboard.down("ArrowUp")
+        drives(rig)
+        ann.keyboard.up("ArrowUp")
+        rests(rig)
+
+
+def test_a_page_with_another_token_says_where_the_right_one_is(browser: Browser, server: Process) -> None:
+    found = re.search(r"http://[^#\s]+", server.text)
+    assert found
+    page = browser.new_page()
+    page.goto(f"{found[0]}#t=wrong")
+    expect(page.locator("#why")).to_have_text(
+        "looking for the server: open the address that zteleop web has printed last"
+    )
+    page.close()
+    server.says("the token is missing or wrong")
