@@ -2,6 +2,7 @@
 
 import re
 import shutil
+import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -144,6 +145,19 @@ def test_whoever_watches_stops_it_and_releases_it_with_intent(
         drives(rig)
         ann.keyboard.up("ArrowUp")
         rests(rig)
+
+
+def test_the_demo_drives_from_a_page_too(rig: Rig, browser: Browser) -> None:
+    demo = rig.run("demo", "--web")
+    demo.says("open http://127.0.0.1:")
+    with opened(browser, demo) as page:
+        expect(page.locator("#camera")).to_have_text(re.compile("a second"))
+        page.keyboard.down("ArrowUp")
+        expect(page.locator("#moving")).to_have_text(re.compile(r"^\+0\.[1-9]"))
+        page.keyboard.up("ArrowUp")
+        expect(page.locator("#state")).to_have_text("idle")
+    demo.signal(signal.SIGINT)
+    assert demo.ends() == 130, demo.text
 
 
 def test_a_page_with_another_token_says_where_the_right_one_is(browser: Browser, server: Process) -> None:

@@ -6,13 +6,14 @@ import sys
 from collections.abc import Sequence
 from contextlib import ExitStack
 from functools import partial
+from importlib.util import find_spec
 from math import hypot
 from pathlib import Path
 
 from zteleop.bus import clock
 from zteleop.bus.node import Node
 from zteleop.bus.settings import SAME_MACHINE_DOOR, BusSettings
-from zteleop.cli import _bad_link, _scenes
+from zteleop.cli import _bad_link, _scenes, web
 from zteleop.cli._driving import find_vehicle
 from zteleop.cli._scratch import DEMO, scratch
 from zteleop.cli.keyboard import drive_with_keys
@@ -52,13 +53,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--vehicle", choices=[*VEHICLES], default="car", help="what drives (default: car)")
     parser.add_argument("--drive", choices=["step", "hold"], help="how the keys drive (default: step)")
+    parser.add_argument("--web", action="store_true", help="drive from a page in a browser instead")
     _bad_link.add(parser, "what operator and simulator say")
 
 
-def run(arguments: argparse.Namespace) -> int:
+def run(arguments: argparse.Namespace) -> int | None:
     """Start actuator and simulator as processes of their own; drive them from here."""
+    if arguments.web:
+        web.expect_websockets()
     screen = sys.stdin.isatty() and sys.stdout.isatty()
-    place = arguments.scene or (SCENE if screen else OPEN)
+    place = arguments.scene or (SCENE if screen or arguments.web else OPEN)
     scene = _scenes.find(place)
     robot = f"demo-{secrets.token_hex(2)}"
     endpoint = f"tcp/127.0.0.1:{_free_port()}"
@@ -80,12 +84,15 @@ def run(arguments: argparse.Namespace) -> int:
         ]
         simulator = ["sim", vehicle, *where, "--connect", endpoint, "--listen", "tcp/127.0.0.1:0"]
         simulator += ["--scene", place, *_bad_link.as_typed(arguments)]
+        simulator += ["--camera"] if arguments.web and find_spec("PIL") else []
         keeps = {"XDG_STATE_HOME": str(folder)}  # a demo leaves nothing behind
         children = [stack.enter_context(leashed(verb, log, keeps)) for verb in (actuator, simulator)]
         bus = BusSettings(connect=[endpoint], listen=["tcp/127.0.0.1:0"], multicast=False)
-        node = stack.enter_context(Node("keyboard", robot, bus))
+        node = stack.enter_context(Node("web" if arguments.web else "keyboard", robot, bus))
         _bad_link.worsen(node, arguments)
         await_robot(node, children, Path(log.name))
+        if arguments.web:
+            return web.drive_from_page(node, Config(bus=bus), port=0)
         if screen:
             trip = Trip()
             lost = partial(ended, children)

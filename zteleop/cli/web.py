@@ -1,10 +1,13 @@
 import argparse
+from collections.abc import Sequence
 from importlib.metadata import version
 from importlib.util import find_spec
 
 from zteleop.bus.lane.call import Call
+from zteleop.bus.node import Node
 from zteleop.cli import _options
 from zteleop.cli._driving import find_vehicle
+from zteleop.config import Config
 from zteleop.errors import DeviceError
 
 EXAMPLES = (
@@ -30,18 +33,33 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> None:
+    expect_websockets()
+    settings = _options.load(arguments)
+    with _options.join("web", settings) as node:
+        drive_from_page(node, settings, arguments.port, arguments.host)
+
+
+def expect_websockets() -> None:
+    """Raise DeviceError where what serves a page is not installed."""
     if find_spec("websockets") is None:
         raise DeviceError("a page needs websockets, which is not installed; say: pip install 'zteleop[web]'")
+
+
+def drive_from_page(node: Node, settings: Config, port: int = PORT, hosts: Sequence[str] = ()) -> None:
+    """Serve a page, print its address, and drive by whatever is held on it until the node is stopped.
+
+    Raises BusError where the port is taken.
+    """
     from zteleop.bridges.web.cockpit import Cockpit
     from zteleop.bridges.web.server import Server
     from zteleop.bridges.web.serving import serving
     from zteleop.bridges.web.tickets import Tickets, new_token
 
-    settings, token = _options.load(arguments), new_token()
-    with _options.join("web", settings) as node, Call(settings.bus) as lane:
+    token = new_token()
+    with Call(settings.bus) as lane:
         cockpit = Cockpit(node, find_vehicle(node, settings), version("zteleop"), lane)
-        server = Server(Tickets(token, arguments.host), cockpit, node.log.warn)
-        with serving(server, HERE, arguments.port) as where:
+        server = Server(Tickets(token, hosts), cockpit, node.log.warn)
+        with serving(server, HERE, port) as where:
             print(f"open http://{HERE}:{where}/#t={token}", flush=True)
             print(f"it drives {node.robot}, for whoever knows this address; Ctrl-C ends it", flush=True)
             cockpit.run()
