@@ -67,3 +67,21 @@ def meant(name: str, known: Iterable[str]) -> str:
 
 def _end(name: str) -> str:
     return name.rpartition("/")[2]
+
+
+def install(extra: str) -> str:
+    """Return the command that adds an extra to this very installation, which may be of a folder."""
+    import json
+    import sys
+    from importlib.metadata import PackageNotFoundError, distribution
+    from urllib.parse import unquote, urlsplit
+
+    try:
+        origin = json.loads(distribution("zteleop").read_text("direct_url.json") or "{}")
+    except (PackageNotFoundError, ValueError):
+        origin = {}
+    url = urlsplit(str(origin.get("url", "")))
+    if url.scheme != "file":
+        return f"pip install 'zteleop[{extra}]'"
+    editable = "-e " * bool(origin.get("dir_info", {}).get("editable"))
+    return f"{sys.executable} -m pip install {editable}'{unquote(url.path)}[{extra}]'"

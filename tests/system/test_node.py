@@ -246,7 +246,7 @@ def test_what_a_handler_says_after_a_long_pause_moves_nothing(rig: Rig, node: No
         say(node, "note", "go")
         blocker.says("published")
         refused = hear(statuses, lambda status: " is refused" in status.why, "a refusal")
-    assert "it is too old" in refused.why
+    assert "the command is too old" in refused.why
     assert watch.seen == {NEUTRAL}
 
 

@@ -3,11 +3,11 @@
 from zteleop.bus import clock
 from zteleop.bus.heard import Heard
 from zteleop.bus.log import NodeLog
-from zteleop.control.beyond import beyond_ends, too_fast, too_tight
 from zteleop.control.command import IN_VAIN, STEERS_ONLY, asks_in_vain
 from zteleop.control.gate import Refusal
 from zteleop.control.proof import NEVER
 from zteleop.control.settings import SOURCES
+from zteleop.control.unmet import aside, beyond_ends, too_fast, too_slow, too_tight
 from zteleop.messages import Message, Refusals
 
 UNHEARD = 1.0
@@ -37,6 +37,14 @@ ADVICE: dict[str, str] = {
     Refusal.OPERATOR_IDLE: "act again",
 }
 """What to do, in place of what the robot advises, which is for everybody."""
+
+UNMET = (
+    (f"is {MORE}", too_fast),
+    (f"is {MORE}", too_tight),
+    ("moves nothing", too_slow),
+    (f"is {MORE}", aside),
+)
+"""what a program is told of a command that is not obeyed as it stands"""
 
 
 class Answer:
@@ -102,8 +110,8 @@ class Answer:
             self._log.warn(f"what is said on {self._topic} is {MORE}: {words}")
         elif self._advised is not None:
             self._advise_once("steers", STEERS_ONLY if steers else "", "turns front wheels and moves nothing")
-            self._advise_once("speed", too_fast(message, self._heard.vehicle), f"is {MORE}")
-            self._advise_once("turn", too_tight(message, self._heard.vehicle), f"is {MORE}")
+            for what, unmet in UNMET:
+                self._advise_once(unmet.__name__, unmet(message, self._heard.vehicle), what)
 
     def _advise_once(self, about: str, words: str, what: str) -> None:
         if words and self._advised is not None and about not in self._advised:

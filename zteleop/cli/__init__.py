@@ -89,6 +89,7 @@ ELSEWHERE = {
     "pkg": "there are no packages: a program is any Python file",
     "rosbag": "a robot keeps its last minute: zteleop blackbox",
     "wtf": "zteleop doctor says what hinders it here",
+    "release": "zteleop stop --release lets a robot drive again",
     "launch": "zteleop up starts what [launch] of config.toml names",
 }
 """what people type who come from elsewhere, and what there is instead"""
@@ -199,6 +200,8 @@ def _grouped(group: str) -> dict[str, str]:
 def _unknown(verb: str) -> str:
     from difflib import get_close_matches
 
+    if verb.endswith(".py"):
+        return f"no verb {verb!r}; zteleop run {verb} runs a program"
     if verb in ELSEWHERE:
         return f"no verb {verb!r}; {ELSEWHERE[verb]}"
     if verb.partition(" ")[0] in GROUPS:

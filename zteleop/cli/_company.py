@@ -14,6 +14,8 @@ TOLD_BY = {
     "stop": "; it is said only when somebody stops a robot: zteleop why tells which stops are in force",
 }
 """topics that are said seldom -> who tells what was said"""
+SAID_BY = {"odom": "; zteleop sim says it of a simulated robot, zteleop odometry of any other"}
+"""topics that somebody else says than the actuator -> who does"""
 
 
 def by_topic(endpoints: Iterable[Endpoint]) -> dict[str, list[Endpoint]]:
@@ -64,7 +66,8 @@ def why_silent(name: Name, endpoints: Iterable[Endpoint], unreached: Sequence[st
             f"{_people(speakers)} {_verb('publish', speakers)} it, and says nothing now"
             f"{_instead(name, speakers, endpoints)}{told}"
         )
-    return f"nobody publishes it{_others(name, 'pub', endpoints, unreached)}{told}"
+    instead = _others(name, "pub", endpoints, unreached)
+    return f"nobody publishes it{instead}{told or (SAID_BY.get(name.path, '') if instead == ' now' else '')}"
 
 
 def who_hears(name: Name, endpoints: Iterable[Endpoint], unreached: Sequence[str] = ()) -> str:

@@ -11,11 +11,13 @@ from zteleop.bus.subscription import Received
 from zteleop.bus.topics import TOPICS
 from zteleop.cli import _options
 from zteleop.cli._outcome import Outcome, await_robot
+from zteleop.control.command import STEERS_ONLY, steers_only
 from zteleop.control.motion.course import Course
 from zteleop.control.motion.pose import Pose2D, pose_of
 from zteleop.control.motion.progress import Progress
 from zteleop.control.motion.trail import Trail
 from zteleop.control.report import in_dead_zone
+from zteleop.control.unmet import too_tight
 from zteleop.errors import BusError
 from zteleop.messages import Odometry, Twist, Vehicle
 
@@ -30,6 +32,8 @@ JUMP, FASTEST = 0.3, 5.0
 """m, and m more for each s since it was last seen, that no robot moves between two looks"""
 STOOD = 1.0
 """s at the end of a course in which a robot that is told to move has not"""
+STANDS_BELOW = 0.01
+"""m/s at most, with which nobody gets anywhere"""
 ASTRAY = 2.0
 """times as far as a course is, and a metre, after which a robot that is not there will never be"""
 STANDS = 0.5
@@ -79,21 +83,22 @@ class Motion:
         Whoever has driven `most` m and is not there goes astray.
         Raises BusError where it was not obeyed to the end.
         """
-        over, stood, hint = False, 0.0, ""
+        over, stood, hint, asked = False, 0.0, "", Twist.planar()
         self._began = clock.now()
 
         @self._node.every(PERIOD)
         def step() -> None:
-            nonlocal stood, hint
+            nonlocal stood, hint, asked
             if over:
                 return
             now = clock.now()
             self._why = self._hindrance(now, by_sight) or self._astray(most)
             twist = None if self._why else course.twist(self._pose or Pose2D(), now)
             if twist is None:
-                stood, hint = min(self._trail.stood(now), now - self._began), self._hint
+                stood, hint = min(self._trail.stood(now), now - self._began), self._hint(asked)
                 self._node.stop()
             else:
+                asked = twist
                 self._outcome.note(twist)
                 self._publisher.publish(twist)
                 self._progress.ask(twist, PERIOD)
@@ -111,6 +116,8 @@ class Motion:
         self._outcome.check()
         if self._why:
             raise BusError(f"not driven to its end: {self._why}")
+        if self._progress.is_asked and self._trail and self._trail.is_nowhere:
+            raise BusError(f"{self._node.robot} did not move; {hint}")
         if stood > STOOD and self._progress.is_asked:
             raise BusError(f"{self._node.robot} stood for the last {stood:.1f} s of it; {hint}")
 
@@ -120,12 +127,15 @@ class Motion:
             return ""
         return f"it drove {self._trail.way:.1f} m and is not there; does it steer the way it is told?"
 
-    @property
-    def _hint(self) -> str:
+    def _hint(self, asked: Twist) -> str:
         """Return why it may stand."""
         heard, status = self._node.membership.heard().vehicle, self._outcome.status
-        if heard and status and in_dead_zone(heard, status.pulses):
-            return f"{in_dead_zone(heard, status.pulses)}: ask for more"
+        if steers_only(asked, heard):
+            return STEERS_ONLY
+        if status and status.slowed and status.max_speed < STANDS_BELOW:
+            return status.slowed
+        if heard and status and (dead := in_dead_zone(heard, status.pulses)):
+            return f"{dead}: ask for {'less turn' if too_tight(asked, heard) else 'more'}"
         return "does something stand in its way?"
 
     def _told(self, tell: Callable[[Trail], str]) -> str:
@@ -150,7 +160,7 @@ class Motion:
         if now - self._seen > SILENT:
             return f"nobody says any more where {robot} is" if by_sight else ""
         if self._trail and self._progress.is_stuck(self._trail, now):
-            return f"{robot} hardly moves; {self._hint}"
+            return f"{robot} hardly moves; {self._hint(Twist.planar())}"
         return ""
 
     def _see(self, received: Received[Odometry]) -> None:
@@ -179,6 +189,8 @@ def announce(node: Node, twist: Twist, seconds: float | None) -> None:
 
 def went(trail: Trail) -> str:
     """Return how far it went and how far it turned, and on which circle, if on one."""
+    if trail.is_nowhere:
+        return "went nowhere"
     is_arc = trail.way > 0.05 and abs(degrees(trail.turned)) >= 20
     radius = trail.radius() if is_arc else None
     bend = f", on a circle of {radius:.2f} m" if radius else ""

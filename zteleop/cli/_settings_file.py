@@ -11,7 +11,7 @@ from typing import Any
 from zteleop import config
 from zteleop.config import Config
 from zteleop.control.servo import Servo
-from zteleop.errors import ConfigError
+from zteleop.errors import ConfigError, install
 
 Changes = Mapping[tuple[str, ...], Any]
 """Values by the names of their tables, and their own."""
@@ -79,8 +79,7 @@ def editor() -> Callable[..., str]:
         from zteleop.text.toml_edit import edited
     except ModuleNotFoundError as error:
         raise ConfigError(
-            f"changing a config file needs {error.name}, which is not installed; "
-            "say: pip install 'zteleop[calibrate]'"
+            f"changing a config file needs {error.name}, which is not installed; say: {install('calibrate')}"
         ) from None
     return edited
 

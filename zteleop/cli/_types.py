@@ -15,6 +15,8 @@ def find_type(name: str, bus: BusSettings) -> type[Message]:
     As C++ and Python write it, `geometry_msgs::msg::Twist` and `geometry_msgs.msg.Twist`, it is the same.
     Raises MessageError with the nearest names where nobody there does either.
     """
+    if name and not (name[0].isalpha() or name[0] == "_"):  # values, where their type was left out
+        raise MessageError(f"expected a type before the values, such as Twist, found {name!r:.60}")
     name = name.replace("::", "/").replace(".", "/")
     try:
         return message_type(name)

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from zteleop.bus import clock
 from zteleop.bus.node import Node
-from zteleop.bus.settings import SAME_MACHINE_DOOR, BusSettings
+from zteleop.bus.settings import SAME_MACHINE, SAME_MACHINE_DOOR, BusSettings
 from zteleop.cli import _bad_link, _scenes, web
 from zteleop.cli._driving import find_vehicle
 from zteleop.cli._scratch import DEMO, scratch
@@ -41,6 +41,7 @@ OTHER: dict[Drive, tuple[Drive, str]] = {
 SCENE, OPEN = "eight", "floor"
 """where it drives at a screen, and where nobody sees what stands in its way"""
 START = 10.0
+HIDDEN = "other terminals see the robot that was on this machine before, and not this one"
 PARTS = ("robot", "simulator")
 """its processes beside this one"""
 
@@ -57,13 +58,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     _bad_link.add(parser, "what operator and simulator say")
 
 
-def run(arguments: argparse.Namespace) -> int | None:
+def run(arguments: argparse.Namespace) -> int:
     """Start actuator and simulator as processes of their own; drive them from here."""
     if arguments.web:
         web.expect_websockets()
     screen = sys.stdin.isatty() and sys.stdout.isatty()
     place = arguments.scene or (SCENE if screen or arguments.web else OPEN)
     scene = _scenes.find(place)
+    hidden = _is_taken(SAME_MACHINE)
     robot = f"demo-{secrets.token_hex(2)}"
     endpoint = f"tcp/127.0.0.1:{_free_port()}"
     with ExitStack() as stack:
@@ -92,10 +94,11 @@ def run(arguments: argparse.Namespace) -> int | None:
         _bad_link.worsen(node, arguments)
         await_robot(node, children, Path(log.name))
         if arguments.web:
-            return web.drive_from_page(node, Config(bus=bus), port=0)
+            web.drive_from_page(node, Config(bus=bus), port=0)
+            return 0
         if screen:
             trip = Trip()
-            lost = partial(ended, children)
+            lost = partial(ended, children, hidden)
             drive = drive_with_keys(
                 node, Config(bus=bus), arguments.drive, marks(plan(scene)), trip, task=lost
             )
@@ -106,9 +109,11 @@ def run(arguments: argparse.Namespace) -> int | None:
     return 0
 
 
-def ended(children: Sequence[Process]) -> Task:
-    """Return, where a part of the demo is gone, which, and what to do."""
+def ended(children: Sequence[Process], hidden: bool = False) -> Task:
+    """Return, where a part of the demo is gone, which, and what to do; else who does not see it, if so."""
     gone = [name for name, child in zip(PARTS, children, strict=True) if child.poll() is not None]
+    if hidden and not gone:
+        return Task([("demo", HIDDEN)])
     lines = [("demo", f"its {' and its '.join(gone)} ended: q, and start another")] if gone else ()
     return Task(lines, ends="robot" in gone)
 
@@ -198,6 +203,14 @@ def await_robot(node: Node, children: Sequence[Process], log: Path) -> None:
             return
         node.spin(0.01)
     raise BusError(f"the simulated robot did not start: {last_words(log)}")
+
+
+def _is_taken(endpoint: str) -> bool:
+    """Say whether somebody listens at an endpoint of this machine, by which others would find the demo."""
+    host, _, port = endpoint.removeprefix("tcp/").rpartition(":")
+    with socket.socket() as probe:
+        probe.settimeout(1.0)
+        return probe.connect_ex((host, int(port))) == 0
 
 
 def _free_port() -> int:

@@ -48,8 +48,8 @@ def _with_people(endpoints: Iterable[Endpoint]) -> Iterator[str]:
         yield f"{title} topics:"
         for name, members in _company.by_topic(one for one in endpoints if one.kind == kind).items():
             also = "".join(f", also {alias}" for alias in topic_of(name.split("/", 2)[2]).aliases)
-            plural = "s" if len(members) > 1 else ""
-            yield f" * {_line(name, members, True)} {len(members)} {what}{plural}{also}"
+            nodes = len({(one.node, one.process) for one in members})
+            yield f" * {_line(name, members, True)} {nodes} {what}{'s'[: nodes - 1]}{also}"
             plain = topic_of(members[0].topic).name
             for one in members:
                 yield f"     {one.node} on {one.process}{'' if one.topic == plain else f': {one.topic}'}"

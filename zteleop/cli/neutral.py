@@ -57,7 +57,8 @@ def run(arguments: argparse.Namespace) -> None:
     chip = settings.driver_settings(name, robot)
     if name == "simulated" and not Path(chip["path"]).exists():
         raise DeviceError(
-            f"{robot} has no simulated chip at {chip['path']}: nothing of it moves{_near(chip['path'])}"
+            f"nothing was written: {robot} has no simulated chip at {chip['path']}{_near(chip['path'])}; "
+            "where it has one elsewhere, as a demo's, say --config FILE"
         )
     calibration = bring_to_rest(settings, name, robot)
     try:

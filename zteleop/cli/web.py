@@ -8,7 +8,7 @@ from zteleop.bus.node import Node
 from zteleop.cli import _options
 from zteleop.cli._driving import find_vehicle
 from zteleop.config import Config
-from zteleop.errors import DeviceError
+from zteleop.errors import DeviceError, install
 
 EXAMPLES = (
     "zteleop web",
@@ -42,7 +42,7 @@ def run(arguments: argparse.Namespace) -> None:
 def expect_websockets() -> None:
     """Raise DeviceError where what serves a page is not installed."""
     if find_spec("websockets") is None:
-        raise DeviceError("a page needs websockets, which is not installed; say: pip install 'zteleop[web]'")
+        raise DeviceError(f"a page needs websockets, which is not installed; say: {install('web')}")
 
 
 def drive_from_page(node: Node, settings: Config, port: int = PORT, hosts: Sequence[str] = ()) -> None:

@@ -15,7 +15,9 @@ EXAMPLES = (
     "zteleop why",
     "zteleop why archangel",
 )
-PAST = " what happened before: zteleop blackbox, on the robot"
+PAST = " if it failed, zteleop blackbox on the robot tells how"
+IS = {"link lost": "has lost its link", "operator idle": "waits for an act", "fault": "has a fault"}
+"""states that are no word behind `is`"""
 HEARD_WITHIN = 2.0
 TELL_AFTER = 1.0
 """s of that until it says for whom it waits"""
@@ -55,7 +57,9 @@ def answer(node: Node) -> str:
     if status is None and dog is None:
         raise BusError(f"no actuator of {node.robot} is heard within {HEARD_WITHIN:g} s; is it on?{PAST}")
     lines = [
-        f"{node.robot} is {status.state}: {status.why}" if status else f"{node.robot}: no actuator heard"
+        f"{node.robot} {IS.get(status.state, f'is {status.state}')}: {status.why}"
+        if status
+        else f"{node.robot}: no actuator heard"
     ]
     lines += [f"  {layer.name:9} {layer.says}" for layer in (why.layers if why else [])]
     lines.append(f"  {'watchdog':9} {state_of(dog) if dog else 'is not heard'}")

@@ -12,8 +12,11 @@ from zteleop.control.mixer import Wheels
 from zteleop.control.mux import Claim
 from zteleop.control.proof import NEVER, called
 from zteleop.control.snapshot import Snapshot
+from zteleop.control.unmet import aside
 from zteleop.messages import Layer, Pwm, Twist
 
+LEAST = 0.005
+"""m/s below which nobody gets anywhere"""
 OLD = 0.1
 """s after which pulses are no longer what the robot means now"""
 REFUSES = 1.0
@@ -47,7 +50,7 @@ def slowed(seen: Snapshot) -> str:
     if claim is None or bound.by == "vehicle":
         return ""
     if bound.by == "source":
-        return f"{claim.source} may drive no faster here"
+        return f"{claim.source} may drive no faster here" if bound.speed >= LEAST else _kept(claim.source)
     return _age(seen, claim)  # the link
 
 
@@ -130,6 +133,10 @@ def _cap(seen: Snapshot) -> str:
     return f"{_metres(seen.top)} m/s: {_age(seen, claim) if claim else 'nobody drives'}"
 
 
+def _kept(source: str) -> str:
+    return f"{source} may move nothing here, as while zteleop calibrate runs"
+
+
 def _age(seen: Snapshot, claim: Claim) -> str:
     if seen.foreign:
         return f"commands of {claim.source} cannot prove their age"
@@ -153,7 +160,7 @@ def _limiter(seen: Snapshot) -> str:
         narrowed = ", ".join(_narrowed(seen))
         return f"nothing to limit; set narrower: {narrowed}" if narrowed else "nothing to limit"
     asked, made = wanted(seen), applied(seen)
-    if _near(asked, made) and not _ends(seen, seen.step.claim):
+    if _near(asked, made) and not _ends(seen, seen.step.claim) and not aside(asked):
         return "passes it on as asked"
     bounds = "; ".join(_bounds(seen, seen.step.claim, asked, made)) or "the wheels can do no better"
     others = ", ".join(limit for limit in _narrowed(seen) if limit.partition(" ")[0] not in bounds)
@@ -172,6 +179,8 @@ def _narrowed(seen: Snapshot) -> Iterator[str]:
 def _bounds(seen: Snapshot, claim: Claim, asked: Twist, made: Twist) -> Iterator[str]:
     """Yield what bounds a claim."""
     yield from _ends(seen, claim)
+    if besides := aside(asked):
+        yield besides
     mixer, limits = seen.settings.mixer, seen.limits
     speed = seen.step.bound.speed
     if abs(asked.linear.x) > speed + _LEAST:
@@ -205,7 +214,7 @@ def _top(source: str, bound: Bound) -> str:
     speed = f"{_metres(bound.speed)} m/s"
     words = {
         "vehicle": f"it does {speed} at most",
-        "source": f"{source} may drive {speed} here",
+        "source": f"{source} may drive {speed} here" if bound.speed >= LEAST else _kept(source),
         "parameter": f"limits.speed is set to {speed}",
     }
     return words.get(bound.by, f"it may do {speed} now")
@@ -242,7 +251,8 @@ def _sender(claim: Claim) -> str:
 
 
 def _twist(twist: Twist) -> str:
-    return f"{twist.linear.x:+.2f} m/s {twist.angular.z:+.2f} rad/s"
+    speed, turn = (round(value, 2) + 0.0 for value in (twist.linear.x, twist.angular.z))  # no minus zero
+    return f"{speed:+.2f} m/s {turn:+.2f} rad/s"
 
 
 def _bend(twist: Twist) -> float:

@@ -19,9 +19,9 @@ class Refusal(StrEnum):
     """Why a command does not count."""
 
     UNPROVEN = "it carries no proof; publish through a zteleop Node, or trust this source by arrival"
-    EARLIER_START = "it was made before the robot's last start"
+    EARLIER_START = "the command was made before the robot's last start"
     REPLAYED = "it repeats an older command"
-    STALE = "it is too old, or its sender no longer hears the robot"
+    STALE = "the command is too old, or its sender no longer hears the robot"
     OPERATOR_IDLE = "its operator has not acted for too long"
     NOT_FROM_NEUTRAL = f"it was moving before the robot was ready; {ANEW}"
     LAPSED = f"it was moving before it was silent, or cut off, for too long; {ANEW}"

@@ -1,5 +1,6 @@
 """One channel's calibration: a fraction of full range to a pulse width and back."""
 
+from math import ceil, floor
 from typing import Annotated, Literal
 
 from msgspec import Meta, Struct
@@ -14,6 +15,8 @@ PulseWidth = Annotated[
         extra_json_schema={"description": "us from 500 to 2500 (a tick is some 4 of them)"},
     ),
 ]
+EVEN = 1e-9
+"""ticks by which a float misses a whole one"""
 Reverse = Literal["direct", "double_tap", "none"]
 """What an ESC makes of pulses below neutral: drives backward; brakes, and drives when they come again after
 neutral; only brakes."""
@@ -62,5 +65,11 @@ class Servo(Struct, frozen=True, forbid_unknown_fields=True):
             min_ticks=round(self.min_us / tick_us),
             neutral_ticks=round(self.neutral_us / tick_us),
             max_ticks=round(self.max_us / tick_us),
-            dead_ticks=int(self.dead_zone_us / tick_us),
+            dead_ticks=self._dead_ticks(tick_us),
         )
+
+    def _dead_ticks(self, tick_us: float) -> int:
+        """Return how many ticks off neutral, to either side, a pulse is still within the dead zone."""
+        neutral, ends = round(self.neutral_us / tick_us), (self.neutral_us, self.dead_zone_us)
+        up, down = floor(sum(ends) / tick_us + EVEN), ceil((ends[0] - ends[1]) / tick_us - EVEN)
+        return max(0, up - neutral, neutral - down) if self.dead_zone_us else 0

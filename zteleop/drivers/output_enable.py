@@ -4,7 +4,7 @@ import errno
 import sys
 from typing import Any
 
-from zteleop.errors import DeviceError
+from zteleop.errors import DeviceError, install
 
 CONSUMER = "zteleop"
 
@@ -73,15 +73,15 @@ def open_output_enable(chip: str, line: int, gpiod: Any = None) -> OutputEnable:
 
 
 def _gpiod() -> Any:
-    install = "pip install 'zteleop[gpio]'" if sys.platform == "linux" else f"this is {sys.platform}"
+    how = install("gpio") if sys.platform == "linux" else f"this is {sys.platform}"
     try:
         import gpiod
     except ImportError as error:
-        raise DeviceError(f"the OE pin needs Linux and gpiod ({install}); or leave oe_line unset") from error
+        raise DeviceError(f"the OE pin needs Linux and gpiod ({how}); or leave oe_line unset") from error
     if not hasattr(gpiod, "request_lines"):  # Debian 12's own python3-libgpiod is version 1
         raise DeviceError(
             f"the OE pin needs gpiod 2.1 or later, found {getattr(gpiod, '__version__', 'an older one')}; "
-            f"say: {install}"
+            f"say: {how}"
         )
     return gpiod
 

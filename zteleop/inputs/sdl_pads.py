@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple, Self
 
 from zteleop.control.proof import NEVER
-from zteleop.errors import DeviceError
+from zteleop.errors import DeviceError, install
 from zteleop.inputs.gamepad_map import FORGET, Moved
 from zteleop.machine import signals
 
@@ -192,7 +192,7 @@ def _sdl() -> Sdl:
         from pygame._sdl2 import controller
     except ImportError as error:
         raise DeviceError(
-            "pads are read through SDL here, which is not installed; say: pip install 'zteleop[pad]'"
+            f"pads are read through SDL here, which is not installed; say: {install('pad')}"
         ) from error
     pygame.display.init()
     controller.init()

@@ -26,7 +26,8 @@ def give_power(node: Node, vehicle: Body, battery: Battery) -> None:
         told.publish(battery.state(Header(clock.stamp(), "base_link")))
         if (words := state_of(battery)) != warned:
             warned = words
-            node.log.warn(f"{node.robot}'s battery {words}; start the simulator anew for a full one")
+            anew = "start the simulator anew, without --charge, for a full one"
+            node.log.warn(f"{node.robot}'s battery {words}; {anew}")
 
 
 def state_of(battery: Battery) -> str:

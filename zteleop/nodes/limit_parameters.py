@@ -11,7 +11,7 @@ from zteleop.errors import DeviceError
 from zteleop.machine.limits_file import LimitsFile
 
 LIMITS = {
-    "limits.speed": (0.01, "m/s, how fast it may drive"),
+    "limits.speed": (0.01, "m/s, how fast it may drive, to the nearest tick of the chip"),
     "limits.turn": (0.01, "rad/s, how fast it may turn"),
     "limits.acceleration": (0.01, "m/s^2, how fast its speed may change; a stop is never softened"),
     "limits.turn_acceleration": (0.01, "rad/s^2, how fast its turning may change"),

@@ -5,7 +5,7 @@ from io import BytesIO
 from zteleop.bus import clock
 from zteleop.bus.node import Node
 from zteleop.bus.topics import TOPICS
-from zteleop.errors import ConfigError
+from zteleop.errors import ConfigError, install
 from zteleop.messages import CompressedImage, Header
 from zteleop.sim.camera import SKY, Camera
 from zteleop.sim.world import World
@@ -23,7 +23,7 @@ class Painter:
             from PIL import Image, ImageDraw
         except ModuleNotFoundError:
             raise ConfigError(
-                "a camera's picture needs Pillow, which is not installed; say: pip install 'zteleop[camera]'"
+                f"a camera's picture needs Pillow, which is not installed; say: {install('camera')}"
             ) from None
         self._camera = camera
         self._new = Image.new

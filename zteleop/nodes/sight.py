@@ -14,6 +14,7 @@ SILENT = 0.4
 """s without a beat, of twenty a second, after which what was said last may not be so any more"""
 ODOM_LASTS = 0.5
 """s after which nobody knows where it is"""
+LOST = "the robot was not ready for what was pressed, and has dropped it: press again"
 ANEW = "the robot was started anew; whoever drove must begin anew as well"
 
 
@@ -75,6 +76,11 @@ class Sight:
         self._epoch = None if beat is None or gone else beat.epoch
         self._at_rest = self.status is not None and self.status.state in HOLDS
         return before != (self._epoch, self._at_rest)
+
+    def note_loss(self, now: float) -> None:
+        """Take note that what was asked for is lost with this change; of a stop the robot says so itself."""
+        if self.status is None or self.status.state not in ("stopped", "fault"):
+            self._log = (LOST, now)
 
     def _is_over(self, status: DriveStatus) -> bool:
         """Say whether what the log told last is so no more: whatever was in the way, or a refusal."""

@@ -133,6 +133,8 @@ class Teleop:
     def _notice_robot(self, now: float) -> None:
         """Take in what the robot says; after what ends a claim, the next act begins from neutral."""
         if self._sight.look(now):
+            if self._asked.stick.deadman:
+                self._sight.note_loss(now)
             self._device.reset(now)
         if (vehicle := self._sight.vehicle) and vehicle != self._vehicle:
             self._refit(vehicle, now)

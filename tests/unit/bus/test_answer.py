@@ -1,4 +1,5 @@
 import pytest
+from msgspec.structs import replace
 from unit.bus.fakes import Ring, sample
 
 from zteleop.bus import codec
@@ -11,7 +12,7 @@ from zteleop.control.gate import Refusal
 from zteleop.control.mixer import Differential
 from zteleop.control.report import to_vehicle
 from zteleop.control.servo import Servo
-from zteleop.control.settings import DriveSettings
+from zteleop.control.settings import DONKEYCAR, DriveSettings
 from zteleop.messages import (
     Beat,
     Header,
@@ -29,6 +30,9 @@ from zteleop.testing import Clock
 WORDS = "not now"
 HOW = "suspended, or in a long handler"
 TANK = DriveSettings(mixer=Differential(), servos={"left": Servo(channel=0), "right": Servo(channel=1)})
+
+
+SLUGGISH = {**DONKEYCAR, "throttle": replace(DONKEYCAR["throttle"], dead_zone_us=22.0)}
 
 
 class Sender:
@@ -187,9 +191,10 @@ def test_who_is_refused_is_told_what_it_can_do(
     assert sender.answer.refused == refusal, "which is the robot's, for screens"
 
 
+SIDEWAYS = Twist(Vector3(0.5, 0.4, 0.0), Vector3(-1.0, 0.0, 0.0))
 FAST, TIGHT, BOTH = Twist.planar(30.0), Twist.planar(0.5, 2.0), Twist.planar(30.0, 100.0)
-TOO_FAST = "30 m/s is obeyed as 3.00, the most it does"
-TOO_TIGHT = "a circle of 0.25 m in radius is obeyed as one of 0.59 m, its tightest"
+TOO_FAST = "30 m/s, and it does 3 at most"
+TOO_TIGHT = "a circle of 0.25 m in radius, and 0.59 m is the tightest it drives"
 
 
 @pytest.mark.parametrize(
@@ -197,7 +202,7 @@ TOO_TIGHT = "a circle of 0.25 m in radius is obeyed as one of 0.59 m, its tighte
     [
         (FAST, [TOO_FAST]),
         (TwistStamped(Header.zero(), TIGHT), [TOO_TIGHT]),
-        (BOTH, [TOO_FAST, "a circle of 0.30 m in radius is obeyed as one of 0.59 m, its tightest"]),
+        (BOTH, [TOO_FAST, TOO_TIGHT.replace("0.25", "0.30")]),
         (Twist.planar(-30.0), [TOO_FAST]),
         (Twist.planar(2.0, 3.3), []),
         (Twist.planar(float("inf")), []),
@@ -220,8 +225,35 @@ def test_who_turns_on_the_spot_faster_than_it_can_is_told(sender: Sender) -> Non
     sender.heard.vehicle = to_vehicle(TANK, 4.8)
     sender.advise(Twist.planar(0.0, -50.0), True)
     (line,) = sender.news
-    assert "more than the robot does: 50 rad/s is obeyed as" in line
-    assert line.endswith("the most it turns")
+    assert line.endswith("more than the robot does: 50 rad/s, and it turns 10 at most")
+
+
+@pytest.mark.parametrize(
+    ("message", "told"),
+    [
+        (Twist.planar(0.02), "0.02 m/s is in its motor's dead zone; 0.14 m/s and more turns it"),
+        (TwistStamped(Header.zero(), Twist.planar(-0.05)), "0.05 m/s is in its motor's dead zone; 0.12 m/s"),
+        (Pwm(375, 373), "throttle 373 is in its motor's dead zone, 365 to 375"),
+    ],
+)
+def test_a_program_that_asks_for_less_than_turns_a_motor_is_told_what_does(
+    sender: Sender, message: Message, told: str
+) -> None:
+    sender.heard.vehicle = to_vehicle(DriveSettings(servos=SLUGGISH), 4.08)
+    for _ in range(2):
+        sender.advise(message, True)
+    (line,) = sender.news
+    assert f"what is said on cmd_vel moves nothing: {told}" in line
+    sender.advise(Twist.planar(0.2), True)
+    assert sender.news == []
+
+
+def test_what_a_twist_asks_for_besides_is_told_once(sender: Sender) -> None:
+    for _ in range(2):
+        sender.advise(SIDEWAYS, True)
+    (line,) = sender.news
+    words = "linear.y 0.4 and angular.x -1; a robot on wheels obeys linear.x and angular.z"
+    assert line == f"nose: warning: what is said on cmd_vel is more than the robot does: {words}"
 
 
 def test_an_operator_who_holds_more_than_a_car_does_sees_it_on_the_screen(clock: Clock) -> None:

@@ -62,11 +62,22 @@ def test_a_silence_says_who_says_nothing_or_what_was_meant(topic: str, words: st
     assert why_silent(resolve(topic, None), [*mine, astray, *ABE, *ZOE]) == words
 
 
+def test_where_a_robot_is_somebody_else_says_than_its_actuator() -> None:
+    actuator = [end("drive_status", "pub", "actuator")]
+    words = "nobody publishes it now; zteleop sim says it of a simulated robot, zteleop odometry of any other"
+    assert why_silent(resolve("abe/odom", None), actuator) == words
+
+
 def test_who_drives_in_one_way_is_silent_on_the_topic_of_the_other() -> None:
     keys = [end(topic, "pub", "keyboard") for topic in ("cmd_vel/keyboard", "pwm/keyboard")]
     words = "keyboard on pi-7 publishes it, and says nothing now; while somebody drives, it may speak on"
     assert why_silent(resolve("abe/cmd_vel", None), keys) == f"{words} pwm instead"
     assert why_silent(resolve("abe/pwm", None), keys) == f"{words} cmd_vel instead"
+
+
+def test_a_stop_that_was_said_is_told_by_why_whoever_may_say_it() -> None:
+    words = why_silent(resolve("abe/stop", None), [end("stop", "pub", "keyboard")])
+    assert words.endswith("only when somebody stops a robot: zteleop why tells which stops are in force")
 
 
 def test_two_who_say_nothing_are_two() -> None:

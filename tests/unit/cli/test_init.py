@@ -59,6 +59,8 @@ def test_version_is_the_packages(flag: str, capsys: pytest.CaptureFixture[str]) 
         ("fly", f"zteleop: no verb 'fly'; known: {', '.join(VERBS)}"),
         ("--robot", "zteleop: no verb '--robot'; known: "),
         ("bag", "zteleop: no verb 'bag'; a robot keeps its last minute: zteleop blackbox"),
+        ("release", "zteleop: no verb 'release'; zteleop stop --release lets a robot drive again"),
+        ("nose.py", "zteleop: no verb 'nose.py'; zteleop run nose.py runs a program"),
         ("\x1b[2J", "zteleop: no verb '\\x1b[2J'; known: "),
         ("", "zteleop: no verb ''; known: "),
     ],

@@ -28,7 +28,7 @@ def test_with_people_it_is_in_the_words_of_ros_and_names_them() -> None:
         "     nose on pi-7",
         "",
         "Subscribed topics:",
-        " * /abe/cmd_vel [geometry_msgs/msg/Twist] 2 subscribers, also cmd_vel_stamped",
+        " * /abe/cmd_vel [geometry_msgs/msg/Twist] 1 subscriber, also cmd_vel_stamped",
         "     nose on pi-7: cmd_vel/program",
         "     nose on pi-7: cmd_vel/keyboard",
     ]

@@ -8,8 +8,9 @@ from msgspec.structs import replace
 
 from zteleop.bus.subscription import Received
 from zteleop.cli import circle, drive, square
-from zteleop.cli._motion import Motion, went
+from zteleop.cli._motion import Motion, announce, went
 from zteleop.cli._options import measure
+from zteleop.control.command import STEERS_ONLY
 from zteleop.control.motion.course import Steady
 from zteleop.control.motion.pose import Pose2D
 from zteleop.control.motion.progress import Progress
@@ -176,6 +177,25 @@ def test_a_robot_that_stood_at_the_end_is_no_success(clock: Clock) -> None:
     motion.drive(Steady(Twist.planar(0.5), 2.5), went)
 
 
+@pytest.mark.parametrize("seconds", [0.3, 1.0, 2.5])
+def test_a_robot_that_never_moved_is_no_success_however_short_it_was(
+    clock: Clock, capsys: pytest.CaptureFixture[str], seconds: float
+) -> None:
+    motion, _ = steady(clock, trail(Pose2D(), Pose2D(0.001)))
+    with pytest.raises(BusError, match=r"^bench did not move; does something stand"):
+        motion.drive(Steady(Twist.planar(0.5), seconds), went)
+    assert capsys.readouterr().out == "went nowhere\n"
+    motion, _ = steady(clock, trail(Pose2D(), Pose2D(0.001)))
+    motion.drive(Steady(Twist.planar(), seconds), went)
+
+
+def test_what_is_said_is_announced_with_how_long(capsys: pytest.CaptureFixture[str]) -> None:
+    for seconds, words in ((2.0, "for 2 s, or until Ctrl-C"), (None, "until Ctrl-C")):
+        announce(FakeNode(robot="bench"), Twist.planar(0.5), seconds)  # type: ignore[arg-type]
+        told = "says /bench/cmd_vel Twist '{linear: {x: 0.5}, angular: {z: 0}}', 20 times a second"
+        assert capsys.readouterr().out == f"{told} {words}\n"
+
+
 def steady(clock: Clock, seen: Trail, *, obeyed: bool = True, refused: str = "") -> tuple[Motion, FakeNode]:
     """Return a motion that has seen this, by a robot that obeys, or refuses."""
     motion, node = Motion.__new__(Motion), FakeNode(robot="bench", clock=clock)
@@ -218,5 +238,15 @@ def test_a_motor_in_its_dead_zone_is_why_it_stands(clock: Clock, car: Vehicle) -
         (0, "some"),
     ):
         pulse = Pulse("throttle", 0, 0.1, 4.08 * (neutral + off), neutral + off)
-        motion._outcome.status = SimpleNamespace(pulses=[pulse])  # type: ignore[assignment]
-        assert words in motion._hint
+        motion._outcome.status = SimpleNamespace(  # type: ignore[assignment]
+            pulses=[pulse], slowed="", max_speed=1.0
+        )
+        assert words in motion._hint(Twist.planar(0.1))
+    motion._outcome.status = SimpleNamespace(  # type: ignore[assignment]
+        pulses=[Pulse("throttle", 0, 0.1, 0.0, neutral + 3)], slowed="", max_speed=1.0
+    )
+    assert "ask for less turn" in motion._hint(Twist.planar(0.2, 30.0))
+    assert motion._hint(Twist.planar(0.0, 1.0)) == STEERS_ONLY
+    kept = "program may move nothing here"
+    motion._outcome.status = SimpleNamespace(pulses=[], slowed=kept, max_speed=0.0001)  # type: ignore[assignment]
+    assert motion._hint(Twist.planar(0.2)) == kept

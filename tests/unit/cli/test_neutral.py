@@ -106,8 +106,8 @@ def test_a_robot_that_has_no_chip_moves_nothing_and_is_perhaps_another(
     drive(str(tmp_path / "zteleop" / "archangel.pca9685"))
     assert neutral("--robot", "archangle") == 1
     words = capsys.readouterr().err
-    assert "archangle has no simulated chip at " in words
-    assert words.endswith("archangle.pca9685: nothing of it moves; did you mean archangel?\n")
+    assert words.startswith("zteleop neutral: nothing was written: archangle has no simulated chip at ")
+    assert "archangle.pca9685; did you mean archangel?; where it has one elsewhere" in words
     assert not (tmp_path / "zteleop" / "archangle.pca9685").exists()
 
 

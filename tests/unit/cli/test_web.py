@@ -3,6 +3,7 @@ import argparse
 import pytest
 
 from zteleop.cli import _run, web
+from zteleop.errors import install
 
 
 def test_a_port_is_a_number_that_fits() -> None:
@@ -20,5 +21,5 @@ def test_without_websockets_it_says_what_to_install(
 ) -> None:
     monkeypatch.setattr(web, "find_spec", lambda name: None)
     assert _run.run_verb("web", "serve a page", []) == 1
-    words = "a page needs websockets, which is not installed; say: pip install 'zteleop[web]'"
-    assert capsys.readouterr().err == f"zteleop web: {words}\n"
+    words = "zteleop web: a page needs websockets, which is not installed; say: "
+    assert capsys.readouterr().err == f"{words}{install('web')}\n"

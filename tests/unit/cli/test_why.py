@@ -88,7 +88,7 @@ def test_nobody_there_is_an_error_in_words_that_names_who_is_and_is_told_sooner(
 ) -> None:
     silent = node()
     monkeypatch.setattr(why.presence, "robots", lambda session: ["zoe"])
-    words = r"no actuator of archangel is heard within 2 s; is it on\? what happened before: zteleop blackbox"
+    words = r"no actuator of archangel is heard within 2 s; is it on\? if it failed, zteleop blackbox"
     with pytest.raises(BusError, match=words):
         answer(silent)
     assert silent.patience == why.HEARD_WITHIN - why.TELL_AFTER
@@ -106,7 +106,7 @@ def test_where_nobody_answers_a_file_says_so_as_well(
     monkeypatch.setattr(why._options, "join", join)
     monkeypatch.setattr(why._options, "load_anyhow", lambda arguments: None)
     monkeypatch.setattr(sys.stdout, "isatty", lambda: is_terminal)
-    with pytest.raises(BusError, match=r"is it on\? what happened before: "):
+    with pytest.raises(BusError, match=r"is it on\? if it failed, "):
         why.run(argparse.Namespace())
     assert bool(capsys.readouterr().out) is not is_terminal
 

@@ -94,6 +94,22 @@ def test_a_car_that_slows_down_to_turn_on_the_spot_is_not_said_to_stand() -> Non
     assert "stands" not in says(robot)["limiter"]
 
 
+def test_what_no_wheels_do_is_not_passed_on() -> None:
+    robot, twist = Robot(), Twist.planar(0.5)
+    twist.linear.y = 0.4
+    robot.hold(twist, 0.5)
+    words = "linear.y 0.4; a robot on wheels obeys linear.x and angular.z"
+    assert says(robot)["limiter"] == f"makes it +0.50 m/s +0.00 rad/s: {words}"
+
+
+def test_a_source_that_may_move_nothing_is_told_so_and_when_that_is() -> None:
+    robot = Robot(DriveSettings(sources={"nav": Source(10, max_speed=0.0001)}))
+    robot.hold(Twist.planar(2.0), 0.5, source="nav")
+    words = "nav may move nothing here, as while zteleop calibrate runs"
+    assert says(robot)["limiter"].endswith(words)
+    assert says(robot)["cap"].endswith(words)
+
+
 def test_a_source_that_may_not_drive_so_fast_names_its_cap() -> None:
     robot = Robot(DriveSettings(sources={"nav": Source(10, max_speed=0.4)}))
     robot.hold(Twist.planar(2.0), 0.5, source="nav")

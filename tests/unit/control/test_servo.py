@@ -38,6 +38,15 @@ def test_donkeycars_calibration_in_ticks_at_60_hz() -> None:
     assert (throttle.min_ticks, throttle.neutral_ticks, throttle.max_ticks) == (220, 370, 500)
 
 
-@pytest.mark.parametrize(("dead_zone_us", "ticks"), [(0.0, 0), (4.0, 0), (15.0, 3), (16.4, 4)])
+@pytest.mark.parametrize(("dead_zone_us", "ticks"), [(0.0, 0), (1.0, 0), (4.0, 1), (15.0, 4), (22.0, 5)])
 def test_a_dead_zone_is_told_in_whole_ticks_that_turn_nothing(dead_zone_us, ticks):
     assert Servo(0, dead_zone_us=dead_zone_us).to_channel("throttle", 4.08).dead_ticks == ticks
+
+
+def test_the_first_tick_beyond_a_dead_zone_turns_the_motor_wherever_neutral_lies_between_two():
+    for tenth in range(41):
+        servo = Servo(0, neutral_us=1500.0 + tenth / 10, dead_zone_us=38.8)
+        channel = servo.to_channel("throttle", 4.08)
+        for sign in (1, -1):
+            first = 4.08 * (channel.neutral_ticks + sign * (channel.dead_ticks + 1))
+            assert abs(first - servo.neutral_us) > servo.dead_zone_us

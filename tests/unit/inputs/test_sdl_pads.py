@@ -138,7 +138,7 @@ def test_without_pygame_it_says_what_to_install(monkeypatch: pytest.MonkeyPatch)
         return real(name, *rest)
 
     monkeypatch.setattr(builtins, "__import__", without)
-    with pytest.raises(DeviceError, match=r"pip install 'zteleop\[pad\]'"):
+    with pytest.raises(DeviceError, match=r"pip install .*\[pad\]'"):
         SdlPads().__enter__()
 
 

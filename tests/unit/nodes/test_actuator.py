@@ -705,7 +705,8 @@ def test_what_commands_nothing_is_dropped_and_said(robot: Robot) -> None:
 def test_a_refused_command_is_said_with_its_reason(robot: Robot) -> None:
     robot.clock.pass_by(2 * AT_MOST_EVERY)
     robot.say(FORWARD, proof=Proof(1, 1, 0, 0.0, 0.0, 0.0))
-    assert robot.node.warnings == ["keyboard 0001 is refused: it was made before the robot's last start"]
+    words = "the command was made before the robot's last start"
+    assert robot.node.warnings == [f"keyboard 0001 is refused: {words}"]
     assert robot.chip.writes == []
     assert robot.node.loop.alarms[0].due == float("inf")
 
@@ -792,7 +793,7 @@ def test_whoever_is_refused_for_a_while_is_told_and_nobody_else(robot: Robot) ->
     refuse(robot, 3)
     refused = told.take()[-1].refused[0]
     assert (refused.sender, refused.source) == ("ff", "keyboard")
-    assert refused.why == "it was made before the robot's last start"
+    assert refused.why == "the command was made before the robot's last start"
     assert refused.since > 0.5
     robot.tick(110)
     told.take()

@@ -39,7 +39,7 @@ def test_a_full_one_makes_full_speed_and_says_how_full_it_is(node: FakeNode) -> 
 def test_the_emptier_it_is_the_slower_the_car_and_at_last_it_stands(node: FakeNode) -> None:
     assert 1.0 < drive(node, LOW, 5).speed < 0.95 * Ackermann().max_speed
     (low,) = node.warnings
-    assert low == "archangel's battery is low; start the simulator anew for a full one"
+    assert low == "archangel's battery is low; start the simulator anew, without --charge, for a full one"
     node.warnings.clear()
     assert drive(node, 0.001, 20).speed == 0.0
     assert "archangel's battery is empty, and its motors stand" in node.warnings[-1]

@@ -6,6 +6,7 @@ from msgspec.structs import replace
 
 from zteleop.bus.topics import TOPICS
 from zteleop.control.settings import DONKEYCAR, DriveSettings
+from zteleop.control.vehicles import VEHICLES
 from zteleop.drivers import open_driver
 from zteleop.drivers.registers import read_pulse_us
 from zteleop.nodes import simulator
@@ -81,6 +82,15 @@ def test_wheels_that_err_say_how_wrong_they_may_be(node: FakeNode, clock: Clock,
     covariance = node.said["odom"].messages[-1].pose.covariance
     assert covariance[0] > 0
     assert node.said["range"].messages[-1].variance > 0
+
+
+@pytest.mark.parametrize("kind", ["car", "create3"])
+def test_a_battery_begins_with_the_charge_asked_for(node: FakeNode, tmp_path: Path, kind: str) -> None:
+    built = VEHICLES[kind]
+    settings = DriveSettings(mixer=built.mixer, servos=built.servos)
+    simulator.run(node, settings, str(tmp_path / "chip"), print, Simulated(kind, charge=0.2))
+    node.live(1.5)
+    assert node.said["battery_state"].messages[0].percentage == pytest.approx(0.2, abs=0.01)
 
 
 def test_a_seed_is_the_same_unknown_car_whatever_was_found_out_of_it_meanwhile() -> None:

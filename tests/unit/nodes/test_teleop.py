@@ -207,6 +207,19 @@ def test_what_was_held_when_the_robot_restarted_is_not_said(desk: Desk, clock: C
     desk.node.hear_beat(epoch=2)
     desk.teleop.obey()
     assert [said.twist for said in desk.twists.take()] == [Twist.planar()]
+    desk.tick(beats=False)
+    assert desk.views[-1].note == sight.LOST
+
+
+@pytest.mark.parametrize(("state", "note"), [("stopped", ""), ("starting", sight.LOST)])
+def test_what_a_start_takes_back_is_told_and_a_stop_tells_itself(desk: Desk, state: str, note: str) -> None:
+    desk.hear_state("idle")
+    desk.device.position = Stick(1.0, 0.0, deadman=True)
+    desk.tick(3)
+    desk.hear_state(state)
+    desk.device.reset = lambda now: setattr(desk.device, "position", Stick())
+    desk.tick()
+    assert desk.views[-1].note == note
 
 
 def test_another_calibration_is_learnt_once(steps: Desk, clock: Clock) -> None:

@@ -48,6 +48,11 @@ class Trail:
             self._moved = (pose, turned, now, self._moved[3] if self._moved else self._poses[-1][0])
 
     @property
+    def is_nowhere(self) -> bool:
+        """It has neither moved nor turned by more than noise."""
+        return self._moved is None
+
+    @property
     def turned(self) -> float:
         """rad since the start, to the left, whole turns included."""
         return self._turns[-1] if self._turns else 0.0

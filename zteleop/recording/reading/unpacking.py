@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from importlib import import_module
 from typing import Any
 
-from zteleop.errors import ConfigError
+from zteleop.errors import ConfigError, install
 
 LARGEST = 2**28
 """bytes of a chunk as it is unpacked; a few bytes that are packed can claim to be any number"""
@@ -62,5 +62,5 @@ def _library(packing: str) -> Any:
         return import_module("zstandard" if packing == "zstd" else "lz4.frame")
     except ModuleNotFoundError as error:
         raise ConfigError(
-            f"this recording needs {error.name}, which is not installed; say: pip install 'zteleop[record]'"
+            f"this recording needs {error.name}, which is not installed; say: {install('record')}"
         ) from None
