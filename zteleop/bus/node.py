@@ -266,8 +266,8 @@ class Node:
 
     def every(self, period: float) -> Callable[[Callable[[], object]], Callable[[], object]]:
         """Decorate a function to run every `period` seconds in `spin`."""
-        if not period > 0:
-            raise ConfigError(f"a timer's period must be more than 0 s, found {period}")
+        if callable(period) or not period > 0:
+            raise ConfigError(f"a timer's period is in s, as in @node.every(0.1), and found {period!r:.40}")
 
         def decorate(function: Callable[[], object]) -> Callable[[], object]:
             self.membership.loop.every(period, function)

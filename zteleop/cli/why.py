@@ -6,8 +6,9 @@ from datetime import UTC, datetime
 
 from zteleop.bus import presence
 from zteleop.bus.escape import printable
+from zteleop.bus.names import resolve
 from zteleop.bus.node import Node
-from zteleop.cli import _options
+from zteleop.cli import _company, _options
 from zteleop.errors import BusError
 from zteleop.messages import DriveStatus, WatchdogStatus, Why
 
@@ -18,6 +19,7 @@ EXAMPLES = (
 PAST = " if it failed, zteleop blackbox on the robot tells how"
 IS = {"link lost": "has lost its link", "operator idle": "waits for an act", "fault": "has a fault"}
 """states that are no word behind `is`"""
+UNPLACED = "nobody says where it is: a simulated robot is moved by zteleop sim; any other has zteleop odometry"
 HEARD_WITHIN = 2.0
 TELL_AFTER = 1.0
 """s of that until it says for whom it waits"""
@@ -63,6 +65,9 @@ def answer(node: Node) -> str:
     ]
     lines += [f"  {layer.name:9} {layer.says}" for layer in (why.layers if why else [])]
     lines.append(f"  {'watchdog':9} {state_of(dog) if dog else 'is not heard'}")
+    odoms = _company.members(resolve("odom", node.robot), "pub", presence.endpoints(node.membership.session))
+    if status and not odoms:
+        lines.append(f"  {'odom':9} {UNPLACED}")
     lines += [f"  {'who':9} {who}" for who in named("\n".join(lines), node)]
     lines.append(f"  {'at':9} {_moment()}")
     return "\n".join(map(printable, lines))

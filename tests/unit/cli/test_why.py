@@ -8,6 +8,8 @@ from typing import Any
 
 import pytest
 
+from zteleop.bus import presence
+from zteleop.bus.names import resolve
 from zteleop.cli import why
 from zteleop.cli.why import answer, state_of
 from zteleop.errors import BusError
@@ -59,8 +61,17 @@ def test_a_line_for_the_robot_and_one_for_each_layer(monkeypatch: pytest.MonkeyP
         "  limiter   passes it on as asked",
         "  watchdog  watching: the actuator steps, within the last 50 ms; sees pulses of rest, "
         "and hears no command that allows motion now",
+        f"  odom      {why.UNPLACED}",
         "  at        2026-11-28 21:40:05 UTC",
     ]
+
+
+def test_where_somebody_says_where_it_is_that_is_not_missed() -> None:
+    desk = node(drive_status=STATUS, why=LAYERS, watchdog=dog())
+    key = presence.endpoint_key(resolve("odom", "archangel"), "pub", "sim", ())
+    desk.membership.session.tokens = lambda selector: {key}
+    assert "nobody says where it is" not in answer(desk)
+    assert "nobody says where it is" not in answer(node(watchdog=dog())), "which is not the matter there"
 
 
 def test_a_sender_that_is_spoken_of_is_told_by_its_node_and_process() -> None:
@@ -80,7 +91,7 @@ def test_a_robot_whose_actuator_is_gone_is_told_by_its_watchdog() -> None:
 
 
 def test_a_robot_whose_watchdog_is_not_heard_says_so() -> None:
-    assert answer(node(drive_status=STATUS)).splitlines()[-2] == "  watchdog  is not heard"
+    assert answer(node(drive_status=STATUS)).splitlines()[-3] == "  watchdog  is not heard"
 
 
 def test_nobody_there_is_an_error_in_words_that_names_who_is_and_is_told_sooner(
@@ -138,9 +149,9 @@ def test_the_verb_prints_it_escaped(monkeypatch: pytest.MonkeyPatch, capsys: Any
     why.run(None)
     out = capsys.readouterr().out
     assert "\x1b" not in out
-    assert out.count("\n") == 4
+    assert out.count("\n") == 5
 
 
 def test_a_stranger_adds_no_line_of_his_own() -> None:
     evil = Why([Layer("operator", "nobody\n  watchdog  watching")])
-    assert len(answer(node(drive_status=STATUS, why=evil)).splitlines()) == 4
+    assert len(answer(node(drive_status=STATUS, why=evil)).splitlines()) == 5
