@@ -1,14 +1,16 @@
 """A simulated Create 3: the figures, buttons, bumpers, lights and notes of the real one."""
 
 import re
+import signal
 from collections.abc import Iterator
 from math import atan2
+from pathlib import Path
 
 import pytest
 from rig import Process, Rig, hear, until
 
 from zteleop.bus.node import Node
-from zteleop.control.create3 import MAX_TURN, SAFE_SPEED, WHEEL_RADIUS
+from zteleop.control.create3 import FULL_SPEED, MAX_TURN, SAFE_SPEED, WHEEL_RADIUS
 from zteleop.messages import (
     BatteryState,
     DockStatus,
@@ -47,6 +49,22 @@ def sim(rig: Rig) -> Iterator[Process]:
     process.says("is heard")
     yield process
     process.close()
+
+
+def test_with_its_safety_overridden_it_is_faster_and_reverses_as_far_as_it_is_told(tmp_path: Path) -> None:
+    with Rig(tmp_path, "full") as bench:
+        bench.actuator("--vehicle", "create3_full")
+        bench.join("sim", "create3_full").says("is heard")
+        odoms = bench.node("listener").subscription("/full/odom", Odometry)
+        for asked, speed in (("0.7m/s", FULL_SPEED), ("-0.4m/s", -0.4)):
+            driving = bench.join("drive", asked)
+            until(lambda: near(odoms.newest(), speed), f"it does {speed} m/s")  # noqa: B023
+            driving.signal(signal.SIGINT)
+            driving.ends()
+
+
+def near(odom: Odometry | None, speed: float) -> bool:
+    return bool(odom) and odom.twist.twist.linear.x == pytest.approx(speed, abs=0.01)
 
 
 @pytest.fixture(scope="module")

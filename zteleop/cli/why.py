@@ -19,7 +19,7 @@ EXAMPLES = (
 PAST = " if it failed, zteleop blackbox on the robot tells how"
 IS = {"link lost": "has lost its link", "operator idle": "waits for an act", "fault": "has a fault"}
 """states that are no word behind `is`"""
-UNPLACED = "nobody says where it is: a simulated robot is moved by zteleop sim; any other has zteleop odometry"
+UNPLACED = "nobody says where it is: zteleop sim moves a simulated robot; zteleop odometry is for any other"
 HEARD_WITHIN = 2.0
 TELL_AFTER = 1.0
 """s of that until it says for whom it waits"""

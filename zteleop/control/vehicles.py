@@ -19,14 +19,12 @@ class Built(NamedTuple):
 
 
 WHEELS = {"left": Servo(0), "right": Servo(1)}
+CREATE3 = Limits(turn=create3.MAX_TURN, acceleration=create3.ACCELERATION)
 VEHICLES = {
     "car": Built(Ackermann(), DONKEYCAR),
     "tank": Built(Differential(), WHEELS),
-    "create3": Built(
-        Differential(create3.TRACK, create3.SAFE_SPEED),
-        WHEELS,
-        Limits(turn=create3.MAX_TURN, acceleration=create3.ACCELERATION),
-    ),
+    "create3": Built(Differential(create3.TRACK, create3.SAFE_SPEED), WHEELS, CREATE3),
+    "create3_full": Built(Differential(create3.TRACK, create3.FULL_SPEED), WHEELS, CREATE3),
 }
 
 

@@ -34,6 +34,7 @@ from zteleop.sim.scene import Scene
 from zteleop.sim.unknown import unknown
 from zteleop.sim.world import World
 
+CREATE3 = ("create3", "create3_full")
 PERIOD, AT_REST = 0.01, 0.05
 """s between two looks at the chip, and while the vehicle stands"""
 STANDS = 0.001
@@ -47,7 +48,7 @@ STANDS_BELOW = 0.001
 
 
 class Simulated(NamedTuple):
-    """What is simulated: of a `create3` all that such a robot has; and where, if there is a scene."""
+    """What is simulated: of a Create 3 all that such a robot has; and where, if there is a scene."""
 
     kind: str = ""
     scene: Scene | None = None
@@ -77,8 +78,8 @@ def run(
         simulated = simulated._replace(scene=simulated.scene or Scene())
     if simulated.unknown:
         vehicle: Body = unknown_car(settings, simulated.seed)
-    elif simulated.kind == "create3":
-        vehicle = Create3(settings.servos)
+    elif simulated.kind in CREATE3:
+        vehicle = Create3(settings.servos, settings.mixer.max_speed)
     else:
         vehicle = make_vehicle(settings.mixer, settings.servos)
     vehicle.odometer = Odometer(simulated.noise, Random(simulated.seed))

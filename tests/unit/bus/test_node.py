@@ -208,7 +208,7 @@ def test_what_is_dropped_is_said_once_a_second_for_each_key(
 
 @pytest.mark.parametrize("period", [0, -1.0, float("nan"), len])
 def test_a_timer_needs_a_period(node: Node, period: float) -> None:
-    with pytest.raises(ConfigError, match="a timer's period is in s, as in @node.every"):
+    with pytest.raises(ConfigError, match=r"a timer's period is in s, as in @node\.every"):
         node.every(period)
 
 

@@ -17,19 +17,24 @@ ROUNDING = 0.005
 
 
 class Create3(Body):
-    """A pulse asks a wheel for a share of what its safety allows; without one, or at rest, it brakes."""
+    """A pulse asks a wheel for a share of what its safety allows; without one, or at rest, it brakes.
 
-    def __init__(self, servos: Mapping[str, Servo]) -> None:
+    `full_speed`, m/s, is above `SAFE_SPEED` where its safety is overridden: then nothing limits how far it
+    reverses.
+    """
+
+    def __init__(self, servos: Mapping[str, Servo], full_speed: float = SAFE_SPEED) -> None:
         super().__init__()
         self.discs = (Disc(0.0, RADIUS),)
         self.wheels = Wheels()
         self.backup = BackupLimit()
         self._servos = servos["left"], servos["right"]
+        self._full_speed = full_speed
 
     def move(self, pulse_us: Pulses, dt: float) -> None:
         """Turn both wheels towards what their pulses ask for."""
-        left, right = (SAFE_SPEED * self._share(servo, pulse_us) for servo in self._servos)
-        back = left + right < -2 * ROUNDING * SAFE_SPEED
+        left, right = (self._full_speed * self._share(servo, pulse_us) for servo in self._servos)
+        back = left + right < -2 * ROUNDING * SAFE_SPEED and self._full_speed <= SAFE_SPEED
         if back:
             self.backup.reverse()
         blocked = back and self.backup.is_reached
