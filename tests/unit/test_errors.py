@@ -1,3 +1,7 @@
+import importlib.metadata
+import sys
+from types import SimpleNamespace
+
 import pytest
 
 from zteleop.errors import (
@@ -7,6 +11,7 @@ from zteleop.errors import (
     MessageError,
     RecordingError,
     ZteleopError,
+    install,
     nearest,
 )
 
@@ -52,3 +57,24 @@ def test_no_error_is_another() -> None:
 )
 def test_the_nearest_names_are_told_else_some_that_are_known(name: str, known: list[str], words: str) -> None:
     assert nearest(name, known).endswith(words)
+
+
+@pytest.mark.parametrize(
+    ("origin", "command"),
+    [
+        (None, "pip install 'zteleop[web]'"),
+        ("not JSON", "pip install 'zteleop[web]'"),
+        ('{"url": "https://a.example/z.whl"}', "pip install 'zteleop[web]'"),
+        ('{"url": "file:///home/a%20b/z"}', f"{sys.executable} -m pip install '/home/a b/z[web]'"),
+        (
+            '{"url": "file:///z", "dir_info": {"editable": true}}',
+            f"{sys.executable} -m pip install -e '/z[web]'",
+        ),
+    ],
+)
+def test_an_extra_is_added_to_where_this_was_installed_from(
+    monkeypatch: pytest.MonkeyPatch, origin: str | None, command: str
+) -> None:
+    here = SimpleNamespace(read_text=lambda name: origin)
+    monkeypatch.setattr(importlib.metadata, "distribution", lambda name: here)
+    assert install("web") == command

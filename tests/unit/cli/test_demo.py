@@ -1,8 +1,9 @@
+import socket
 from types import SimpleNamespace
 
 import pytest
 
-from zteleop.cli.demo import Teller, Trip, farewell
+from zteleop.cli.demo import HIDDEN, Teller, Trip, _is_taken, ended, farewell
 from zteleop.messages import DriveStatus, Odometry
 from zteleop.testing import Clock
 
@@ -66,3 +67,17 @@ def test_the_next_step_is_written_as_this_one_was_typed(
     first = "/here/zteleop/__main__.py" if "-m" in typed else typed[1]
     monkeypatch.setattr("sys.argv", [first, "demo"])
     assert f"\n  {words} demo --drive hold " in farewell(Trip(), "step")
+
+
+def test_a_demo_that_others_do_not_see_says_so_until_a_part_of_it_is_gone() -> None:
+    lives, gone = SimpleNamespace(poll=lambda: None), SimpleNamespace(poll=lambda: 1)
+    assert ended([lives, lives]).lines == ()  # type: ignore[list-item]
+    assert ended([lives, lives], hidden=True).lines == [("demo", HIDDEN)]  # type: ignore[list-item]
+    assert "its simulator ended" in ended([lives, gone], hidden=True).lines[0][1]  # type: ignore[list-item]
+
+
+def test_a_door_is_taken_while_somebody_listens_there() -> None:
+    with socket.create_server(("127.0.0.1", 0)) as door:
+        endpoint = f"tcp/127.0.0.1:{door.getsockname()[1]}"
+        assert _is_taken(endpoint)
+    assert not _is_taken(endpoint)
