@@ -203,7 +203,7 @@ def test_a_second_program_is_told_when_the_first_is_done(rig: Rig) -> None:
     first = rig.join(*DRIVE)
     moves(rig)
     second = rig.program(SECOND.replace("{endpoint}", rig.endpoint))
-    second.says("refused by robot bench: another sender drives this source; let go")
+    second.says("refused by robot bench: another sender drives this source; start this anew, or")
     first.signal(signal.SIGINT)
     assert first.ends() == 130
     second.says("refused by robot bench: another sender drove this source when this one began, and is done")

@@ -98,8 +98,9 @@ def test_what_the_watchdog_sees_can_be_asked(rig: Rig) -> None:
     lines = why.stdout.splitlines()
     assert re.fullmatch(r"bench is driving: keyboard \w{4} drives", lines[0])
     names = [line.split()[0] for line in lines[1:]]
-    assert names == ["operator", "gate", "mux", "rest", "cap", "limiter", "wheels", "watchdog", "who", "at"]
-    assert watching in lines[-3]
+    layers = ["operator", "gate", "mux", "rest", "cap", "limiter", "wheels"]
+    assert names == [*layers, "watchdog", "odom", "who", "at"]
+    assert watching in lines[-4]
     assert re.fullmatch(r"  who       keyboard \w{4} is test, process \d+ on \S+", lines[-2])
 
 

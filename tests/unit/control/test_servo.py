@@ -44,8 +44,8 @@ def test_a_dead_zone_is_told_in_whole_ticks_that_turn_nothing(dead_zone_us, tick
 
 
 def test_the_first_tick_beyond_a_dead_zone_turns_the_motor_wherever_neutral_lies_between_two():
-    for tenth in range(41):
-        servo = Servo(0, neutral_us=1500.0 + tenth / 10, dead_zone_us=38.8)
+    for tenth in range(410):
+        servo = Servo(0, neutral_us=1500.0 + tenth / 10, dead_zone_us=30.0 + tenth / 20)
         channel = servo.to_channel("throttle", 4.08)
         for sign in (1, -1):
             first = 4.08 * (channel.neutral_ticks + sign * (channel.dead_ticks + 1))
