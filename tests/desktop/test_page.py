@@ -1,5 +1,6 @@
 """The cockpit's page in a real browser: what is held there moves a real robot, and what is let go ends it."""
 
+import os
 import re
 import shutil
 import signal
@@ -16,6 +17,20 @@ pytestmark = pytest.mark.skipif(not CHROMIUM, reason="not here: chromium (Debian
 STEERING, THROTTLE = 0, 1
 WITHIN = 60_000
 """ms that a browser may take on a machine that has much else to do"""
+WATCH = """() => {
+    window.said = "";
+    const send = WebSocket.prototype.send;
+    WebSocket.prototype.send = function (text) {
+        const word = JSON.parse(text);
+        if (word.is === "held" && !window.said.endsWith(String(word.deadman)))
+            window.said += (window.said && ",") + word.deadman;
+        return send.call(this, text);
+    };
+}"""
+"""keeps what the page says of its dead-man, whenever that changes"""
+KEYS = """kinds => {
+    for (const kind of kinds) document.dispatchEvent(new KeyboardEvent(kind, { code: "ArrowUp" }));
+}"""
 SIZES = {"phone": (390, 844), "tablet": (820, 1180), "desktop": (1440, 900)}
 expect.set_options(timeout=WITHIN)
 
@@ -36,9 +51,12 @@ def server(rig: Rig) -> Process:
 
 
 @pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
+def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
+    own = {**os.environ, "TMPDIR": str(tmp_path_factory.mktemp("chromium"))}  # where it leaves what it leaves
     with sync_playwright() as player:
-        opened = player.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"], timeout=WITHIN)
+        opened = player.chromium.launch(
+            executable_path=CHROMIUM, args=["--no-sandbox"], env=dict(own), timeout=WITHIN
+        )
         yield opened
         opened.close()
 
@@ -123,6 +141,16 @@ def test_a_finger_on_the_stick_drives_while_it_is_there(
         rests(rig)
         for name in ("#stop", "#stick", "#state", "#top"):
             expect(page.locator(name)).to_be_in_viewport(ratio=1.0)
+
+
+def test_a_release_and_a_press_at_once_are_both_heard(rig: Rig, browser: Browser, server: Process) -> None:
+    with opened(browser, server) as page:
+        page.evaluate(WATCH)
+        page.evaluate(KEYS, ["keydown", "keyup", "keydown"])  # within one turn of the page's loop
+        drives(rig)
+        page.evaluate(KEYS, ["keyup"])
+        rests(rig)
+        assert page.evaluate("window.said").startswith("true,false,true")
 
 
 def test_whoever_watches_stops_it_and_releases_it_with_intent(

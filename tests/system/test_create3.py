@@ -51,6 +51,24 @@ def sim(rig: Rig) -> Iterator[Process]:
     process.close()
 
 
+COURSE = (
+    "{header: {stamp: {sec: 0, nanosec: 0}, frame_id: ''}, "
+    "twist: {linear: {x: 0.0, y: 0.0, z: 0.0}, angular: {x: 0.0, y: 0.0, z: 0.5}}}"
+)
+"""as the course types it"""
+
+
+@pytest.mark.usefixtures("sim")
+def test_the_line_of_the_course_turns_it(rig: Rig, node: Node) -> None:
+    odoms = node.subscription("odom", Odometry)
+    typed = ["pub", "-r", "4", "/bench/cmd_vel_stamped", "geometry_msgs/msg/TwistStamped", COURSE]
+    says = rig.join("topic", *typed)
+    hear(odoms, lambda seen: seen.twist.twist.angular.z == pytest.approx(0.5, abs=0.02), "a left turn")
+    says.signal(signal.SIGINT)
+    assert says.ends() == 130, says.text
+    hear(odoms, lambda seen: seen.twist.twist.angular.z == 0.0, "it rests")
+
+
 def test_with_its_safety_overridden_it_is_faster_and_reverses_as_far_as_it_is_told(tmp_path: Path) -> None:
     with Rig(tmp_path, "full") as bench:
         bench.actuator("--vehicle", "create3_full")

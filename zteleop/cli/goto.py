@@ -43,7 +43,7 @@ def run(arguments: argparse.Namespace) -> None:
             print(f"{node.robot} is there already, {off:.2f} m off{nearer}")
             return
         here, there = f"x {pose.x:.2f} m, y {pose.y:.2f} m", f"x {x:.2f} m, y {y:.2f} m"
-        print(f"drives from {here} to {there}, at {speed:g} m/s at most", flush=True)
+        print(f"drives from {here} to {there}, at {speed:g} m/s at most; Ctrl-C stops it", flush=True)
         course = Pursuit(vehicle, x, y, speed, arguments.within)
         most = ASTRAY * off + 2 * tau * pace.easy_radius(vehicle) + 1  # and it may have to turn round first
         motion.drive(course, lambda trail: told(trail, x, y), most=most)

@@ -54,7 +54,7 @@ def run(arguments: argparse.Namespace) -> None:
 
         due = node.membership.loop.alarm(tell)
         due.ring_at(clock.now() + LINE_EVERY)
-        print(printable(_row(way.robot, HEAD)), flush=True)
+        print(printable(_row(f"{way.robot}, ms", HEAD)), flush=True)
         if sys.stderr.isatty() and not arguments.once:
             print("ms, medians of a second; Ctrl-C ends this, and nothing of the robot", file=sys.stderr)
         node.spin()

@@ -28,7 +28,8 @@ def run(arguments: argparse.Namespace) -> None:
         start, corner = motion.look(), pace.easy_radius(vehicle)
         speed = arguments.speed or pace.straight_speed(vehicle)
         corners = f"arcs of {corner:.2f} m, for it cannot turn on the spot" if corner else "turns on the spot"
-        print(f"drives four sides of {side:g} m at {speed:g} m/s, joined by {corners}", flush=True)
+        sides = f"drives four sides of {side:g} m at {speed:g} m/s, joined by {corners}"
+        print(f"{sides}; Ctrl-C stops it", flush=True)
         most = 1 / pace.least_radius(vehicle) if vehicle.steers else CORRECTS
         legs = square(start, side, corner, arguments.right)
         way = ASTRAY * sum(leg.length for leg in legs) + 1

@@ -21,6 +21,7 @@ from zteleop.processes import PROGRAMS
 from zteleop.recording.journal import Journal
 
 PROGRAM = PROGRAMS["actuator"]
+SIMULATED = "the chip is simulated: zteleop sim moves a robot by it; --driver pca9685 writes to a real one"
 
 
 def run(number: int) -> int:
@@ -32,7 +33,7 @@ def run(number: int) -> int:
         # What is refused here, the watchdog was refused as well, and has said so.
         realtime.ask_for(PROGRAM.priority, PROGRAM.oom_score)
         if settings.driver == "simulated" and standing is None:
-            node.log.info("the chip is simulated, and moves no wheel; --driver pca9685 writes to a real one")
+            node.log.info(SIMULATED)
         orphan.notice(lambda: node.membership.loop.fail(link.gone()))
         folder = config.state_folder(robot)
         chip = settings.driver_settings(settings.driver, robot)

@@ -50,7 +50,7 @@ def tell(node: FakeNode, clock: Clock, capsys: pytest.CaptureFixture[str]) -> Te
         head, *lines = capsys.readouterr().out.splitlines()
         assert (
             " ".join(head.split())
-            == "archangel act to bus network door to actuator actuator to chip in all at worst"
+            == "archangel, ms act to bus network door to actuator actuator to chip in all at worst"
         )
         assert {len(line) for line in lines} == {len(head)}, "the figures stand below their names"
         return lines

@@ -18,14 +18,18 @@ const DEADMAN = [4, 5, 6, 7]; // a pad's shoulder buttons: while one is held, it
 const within = (value) => Math.max(-1, Math.min(1, value));
 
 export class Held {
-  /** @param {Document} page */
-  constructor(page) {
+  /**
+   * @param {Document} page
+   * @param {() => void} changed something is held now that was not, or no longer: a moment in which nothing was must not be lost
+   */
+  constructor(page, changed) {
+    this.changed = changed;
     /** @type {Set<string>} */
     this.keys = new Set();
     /** @type {{drive: number, turn: number} | null} */
     this.finger = null;
     page.addEventListener("keydown", (event) => this.press(event));
-    page.addEventListener("keyup", (event) => this.keys.delete(event.code));
+    page.addEventListener("keyup", (event) => this.keys.delete(event.code) && this.changed());
     for (const lost of ["blur", "pagehide"]) addEventListener(lost, () => this.drop());
     page.addEventListener("visibilitychange", () => page.hidden && this.drop());
   }
@@ -36,13 +40,16 @@ export class Held {
     if (!(event.code in KEYS) || event.ctrlKey || event.altKey || event.metaKey) return;
     if (target && target.closest("input, select, textarea")) return;
     event.preventDefault();
-    if (!event.repeat) this.keys.add(event.code); // a key that was held in another window begins nothing here
+    if (event.repeat) return; // a key that was held in another window begins nothing here
+    this.keys.add(event.code);
+    this.changed();
   }
 
   /** Nothing is held any more: what happens to keys elsewhere, this page does not hear. */
   drop() {
     this.keys.clear();
     this.finger = null;
+    this.changed();
   }
 
   /** @returns {import("./bus.js").Stick} */
@@ -84,6 +91,7 @@ export function touch(pad, held) {
     pad.setPointerCapture(event.pointerId);
     [x, y] = [event.clientX, event.clientY];
     held.finger = { drive: 0, turn: 0 };
+    held.changed();
     event.preventDefault();
   });
   pad.addEventListener("pointermove", (event) => {
@@ -95,5 +103,6 @@ export function touch(pad, held) {
   for (const end of ["pointerup", "pointercancel", "lostpointercapture"])
     pad.addEventListener(end, () => {
       held.finger = null;
+      held.changed();
     });
 }

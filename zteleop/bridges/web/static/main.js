@@ -34,7 +34,7 @@ const token = new URLSearchParams(location.hash.slice(1)).get("t") || sessionSto
 sessionStorage.setItem(KEY, token); // a page that is loaded anew keeps it; it stands in no address that is logged
 history.replaceState(null, "", location.pathname);
 
-const held = new Held(document);
+const held = new Held(document, () => bus.sayHeld());
 const view = new Top(at("top"));
 const known = { you: "", holder: "", obeyed: false, refused: "", vehicle: /** @type {any} */ (null), heard: 0, since: 0, met: false, x: 0, y: 0 };
 const eye = new Eye(at("eye"), (words) => show("camera", words));
