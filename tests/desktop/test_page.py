@@ -29,7 +29,8 @@ WATCH = """() => {
 }"""
 """keeps what the page says of its dead-man, whenever that changes"""
 KEYS = """kinds => {
-    for (const kind of kinds) document.dispatchEvent(new KeyboardEvent(kind, { code: "ArrowUp" }));
+    const about = { code: "ArrowUp", bubbles: true };
+    for (const kind of kinds) document.body.dispatchEvent(new KeyboardEvent(kind, about));
 }"""
 SIZES = {"phone": (390, 844), "tablet": (820, 1180), "desktop": (1440, 900)}
 expect.set_options(timeout=WITHIN)
