@@ -3,14 +3,15 @@
 import re
 import shlex
 import subprocess
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import msgspec
 import pytest
-from rig import NEUTRAL, Process, Rig, until
+from rig import NEUTRAL, Process, Rig, hear, until
 
 from zteleop.control.settings import DONKEYCAR
+from zteleop.messages import Odometry
 from zteleop.sim.unknown import unknown
 
 TICK = 4.08
@@ -57,11 +58,16 @@ class Sitting:
         until(lambda: self.rig.ticks[channel] == ticks, f"{ticks} at the chip, not {self.rig.ticks}")
         self.screen.shows("throttle {1}, steering {0}".format(*self.rig.ticks))
 
-    def reverse(self, ticks: int, below: int) -> None:
-        """Do what the screen says of an ESC that brakes first: below neutral once, space, and then again."""
+    def reverse(self, ticks: int, below: int, looks: Callable[[], object] = lambda: None) -> None:
+        """Do what the screen says of an ESC that brakes first: below neutral once, space, and then again.
+
+        Each for as long as it takes the simulator to look at the chip: a real ESC sees every pulse.
+        """
         self.turn(THROTTLE, below)
+        looks()
         self.screen.type(" ")
         self.shows(THROTTLE, self.neutral[THROTTLE])
+        looks()
         self.turn(THROTTLE, ticks)
 
     def answers(self, number: int) -> None:
@@ -81,6 +87,14 @@ def test_whoever_follows_the_page_drives_a_circle_with_a_car_that_nobody_knew(ri
     rig.set(f'drivers.simulated.path = "{rig.chip}"')
     sim = rig.join(*SIM)
     sitting = Sitting(rig, *CALIBRATE)
+    odoms = rig.node("watcher").subscription("odom", Odometry)
+
+    def looks() -> None:
+        """Wait until the simulator has looked at the chip: it says so often where it is."""
+        list(odoms.take())
+        for _ in range(3):
+            hear(odoms, lambda seen: True, "the simulator")
+
     begins = REALLY.settings.esc_deadband_us
     forward = int((throttle.neutral_us + begins) / TICK) + 1
     backward = -int((begins - throttle.neutral_us) // TICK) - 1
@@ -88,7 +102,7 @@ def test_whoever_follows_the_page_drives_a_circle_with_a_car_that_nobody_knew(ri
     sitting.screen.type(UP)
     sim.says("and turn at 0.")  # one tick less did not turn them
     sitting.answers(1)
-    sitting.reverse(backward, backward - 10)
+    sitting.reverse(backward, backward - 10, looks)
     sim.says("and turn at -0.")
     sitting.screen.type(ENTER)
     sitting.screen.shows("the robot starts anew")
@@ -108,7 +122,7 @@ def test_whoever_follows_the_page_drives_a_circle_with_a_car_that_nobody_knew(ri
     sitting.answers(5)
     sitting.turn(THROTTLE, ticks_of(throttle.max_us))
     sitting.answers(6)
-    sitting.reverse(ticks_of(throttle.min_us), backward - 10)
+    sitting.reverse(ticks_of(throttle.min_us), backward - 10, looks)
     sitting.screen.type(ENTER)
     assert sitting.screen.ends() == 0
     assert "config.toml is written" in sitting.screen.output.decode()

@@ -124,9 +124,13 @@ class Stops:
 
     def _ask_who_is_meant(self, node: Node) -> None:
         """Say which robots there are, where one that does not answer is not among them."""
+        from difflib import get_close_matches  # which a stop that is answered does not wait for
+
         session = node.membership.session
         for robot in self._asked.keys() - self._told - set(presence.robots(session)):
             words = f"{robot} does not answer so far, and is asked on; {presence.here(session, robot)}"
+            if get_close_matches(robot, ["release"], 1, 0.75):
+                words += "; zteleop stop --release is what lets a robot drive again"
             print(printable(words), file=sys.stderr, flush=True)
 
     def heed(self) -> bool:

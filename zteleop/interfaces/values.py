@@ -34,14 +34,26 @@ def _fill(kind: Any, values: object, path: str) -> Any:
     return values
 
 
+def _example(kind: Any) -> str:
+    """Return how the first field of a type is written, down to a value."""
+    if isinstance(kind, type) and issubclass(kind, Message) and (fields := field_types(kind)):
+        name, inner = next(iter(fields.items()))
+        return f"{{{name}: {_example(inner)}}}"
+    zero = zero_of(kind)
+    return str(zero).lower() if isinstance(zero, bool) else repr(zero)
+
+
 def _fill_fields(kind: type[Message], values: object, path: str) -> dict[str, Any]:
     fields = field_types(kind)
     if not isinstance(values, Mapping):
-        raise MessageError(f"expected {{{', '.join(fields)}}} at {path}, found {values!r}")
+        named = f"; name what is meant, as in {_example(kind)}" if fields else ""
+        raise MessageError(f"expected {{{', '.join(fields)}}} at {path}, found {values!r}{named}")
     for name in values:
         if name not in fields:
             near = get_close_matches(str(name), fields, 1)
             hint = f"did you mean {near[0]}?" if near else f"known: {', '.join(fields)}"
+            if isinstance(name, int) and values[name] is None:  # what YAML makes of {x: 0,2}
+                hint = "a decimal point is a point, no comma"
             raise MessageError(f"{path} has no field {name!r}; {hint}")
     return {
         name: _fill(field, values[name], f"{path}.{name}")

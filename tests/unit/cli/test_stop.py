@@ -176,6 +176,12 @@ def test_a_robot_nobody_has_is_told_with_those_there_are(typed: Type, heard: lis
     assert rest[-1].endswith("or run zteleop neutral --robot gabriel on it")
 
 
+def test_who_forgot_the_dashes_of_release_is_told_of_them(typed: Type, heard: list[str]) -> None:
+    heard += ["archangel"]
+    first = typed(None, "relase")[2].splitlines()[0]
+    assert first.endswith("heard here: archangel; zteleop stop --release is what lets a robot drive again")
+
+
 @pytest.mark.parametrize(
     ("words", "meant"),
     [
