@@ -65,12 +65,14 @@ def time_commands(runs: int) -> dict[str, list[float]]:
             for name, command, _ in told:
                 began = time.perf_counter()
                 with running(command, stdout=subprocess.PIPE, env=environment, cwd=robot.folder) as process:
-                    answer = process.stdout.readline() if name in ANSWERS and process.stdout else "none"
-                    if name not in ANSWERS:
+                    if name in ANSWERS:
+                        failed = not (process.stdout and process.stdout.readline())
+                    else:
                         process.communicate(timeout=10)
+                        failed = bool(process.returncode)
                     samples[name].append(1000 * (time.perf_counter() - began))
-                if not answer or (name not in ANSWERS and process.returncode):
-                    raise SystemExit(f"{name} ended with {process.returncode}")
+                if failed:
+                    raise SystemExit(f"{name} ended with {process.returncode}, or without a word")
             release = [ZTELEOP, "stop", ROBOT, "--release", "-e", robot.endpoint, "--no-multicast-scouting"]
             subprocess.run(release, env=environment, cwd=robot.folder, check=True, capture_output=True)
     return samples

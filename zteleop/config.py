@@ -2,7 +2,6 @@
 
 import contextlib
 import os
-import re
 from collections.abc import Iterator
 from itertools import islice
 from pathlib import Path
@@ -111,28 +110,12 @@ def parse(text: bytes, name: str = "settings") -> Config:
     except msgspec.ValidationError as error:
         raise ConfigError(_mistakes(text.decode(), values, name) or f"{name}: {error}") from None
     except (msgspec.DecodeError, ValueError, RecursionError) as error:
-        at, told = _not_toml(str(error), text)
+        from zteleop.text.not_toml import explained  # only where it is none
+
+        place, words = explained(str(error), text.decode(errors="replace"))
+        where = ":".join(filter(None, (name, place)))
         more = "what else is wrong shows once this is right"
-        raise ConfigError(f"{name}{at}: not TOML: {told}; {more}") from None
-
-
-def _not_toml(error: str, text: bytes) -> tuple[str, str]:
-    """Return where a parser stopped, and why: in its words, and of what people often write in plain ones."""
-    words, _, where = error.partition(" (at ")
-    lines = text.decode(errors="replace").splitlines()
-    place = re.match(r"line (\d+), column (\d+)", where)
-    number = int(place[1]) if place else len(lines)
-    written = lines[number - 1] if 0 < number <= len(lines) else ""
-    if twice := re.match(r"Cannot declare \((.*?),?\) twice", words):
-        words = f"[{twice[1].replace(', ', '.').replace(chr(39), '')}] is written twice"
-    elif words == "Cannot overwrite a value":
-        words = f"{written.partition('=')[0].strip() or 'a name'} is written twice"
-    elif words == "Invalid value":
-        is_there = written.partition("=")[2].strip()
-        words = f"{words} (text needs quotes)" if is_there else "nothing stands behind ="
-    elif re.search(r"=\s*[-+]?\d+,\d", written):
-        words = "a decimal point is a point, found a comma"
-    return f":{place[1]}:{place[2]}" if place else f":{number}" * bool(where), words
+        raise ConfigError(f"{where}: not TOML: {words}; {more}") from None
 
 
 def places() -> Iterator[Path]:

@@ -161,6 +161,10 @@ def test_whoever_watches_stops_it_and_releases_it_with_intent(
         ann.keyboard.down("ArrowUp")
         drives(rig)
         expect(bob.locator("#pages")).to_have_text(re.compile("page .* has the wheel, 2 pages are open"))
+        bob.keyboard.down("ArrowDown")
+        expect(bob.locator("#why")).to_have_text(re.compile("you are not obeyed: page .* has the wheel"))
+        expect(bob.locator("#stick")).to_have_attribute("data-held", "false")
+        bob.keyboard.up("ArrowDown")
         bob.get_by_role("button", name="STOP").click()
         rests(rig)
         for page in (ann, bob):

@@ -20,6 +20,7 @@ TYPED = [shlex.split(line) for line in re.findall(r"^    zteleop (.+)$", PAGE, r
 INIT, SIM, CALIBRATE, ACTUATOR, CIRCLE, BACKWARD = TYPED[:6]
 SEED = int(SIM[-1])
 REALLY = unknown(DONKEYCAR, SEED)
+TURNS = re.compile(r"and turn at 0\.(0[1-9]|[1-9])")
 UP, DOWN, RIGHT, LEFT = ("\x1b[A", "\x1b[B", "\x1b[C", "\x1b[D")
 ENTER = "\r"
 STEERING, THROTTLE = 0, 1
@@ -100,7 +101,7 @@ def test_whoever_follows_the_page_drives_a_circle_with_a_car_that_nobody_knew(ri
     backward = -int((begins - throttle.neutral_us) // TICK) - 1
     sitting.turn(THROTTLE, forward - 1)
     sitting.screen.type(UP)
-    sim.says("and turn at 0.")  # one tick less did not turn them
+    until(lambda: TURNS.search(sim.text), "the wheels turn")  # one tick less did not turn them
     sitting.answers(1)
     sitting.reverse(backward, backward - 10, looks)
     sim.says("and turn at -0.")

@@ -1,14 +1,16 @@
 """What a robot answers to one publisher of commands: they count, they do not, or it is not heard at all."""
 
+from collections.abc import Callable
+
 from zteleop.bus import clock
 from zteleop.bus.heard import Heard
 from zteleop.bus.log import NodeLog
-from zteleop.control.command import IN_VAIN, STEERS_ONLY, asks_in_vain
+from zteleop.control.command import IN_VAIN, asks_in_vain
 from zteleop.control.gate import Refusal
 from zteleop.control.proof import NEVER
 from zteleop.control.settings import SOURCES
-from zteleop.control.unmet import aside, beyond_ends, too_fast, too_slow, too_tight
-from zteleop.messages import Message, Refusals
+from zteleop.control.unmet import aside, beyond_ends, spins, too_fast, too_slow, too_tight
+from zteleop.messages import Message, Refusals, Vehicle
 
 UNHEARD = 1.0
 """s without a beat while somebody commands"""
@@ -38,13 +40,14 @@ ADVICE: dict[str, str] = {
 }
 """What to do, in place of what the robot advises, which is for everybody."""
 
-UNMET = (
-    (f"is {MORE}", too_fast),
-    (f"is {MORE}", too_tight),
-    ("moves nothing", too_slow),
-    (f"is {MORE}", aside),
-)
-"""what a program is told of a command that is not obeyed as it stands"""
+UNMET: dict[Callable[[Message, Vehicle | None], str], str] = {
+    spins: "turns front wheels and moves nothing",
+    too_fast: f"is {MORE}",
+    too_tight: f"is {MORE}",
+    too_slow: "moves nothing",
+    aside: f"is {MORE}",
+}
+"""what a program is told, once, of a command that is not obeyed as it stands"""
 
 
 class Answer:
@@ -74,8 +77,8 @@ class Answer:
         self._moved = NEVER
         self._slow = 0
         """How often in a row it was moved on too late."""
-        self._advised: set[str] | None = set() if is_program else None
-        """Of what a program was told; None for an input, whose operator sees what is obeyed."""
+        self._untold = dict(UNMET) if is_program else None
+        """What a program was not told yet; None for an input, whose operator sees what is obeyed."""
 
     @property
     def refused(self) -> str:
@@ -95,28 +98,24 @@ class Answer:
 
     def end(self, seconds: float) -> None:
         """Say to a program that ends, and so lets go, that what it said lasted too briefly to be seen."""
-        if self._advised is not None and seconds < BRIEF and not self.refused:
+        if self._untold is not None and seconds < BRIEF and not self.refused:
             self._log.warn(
                 f"what was said on {self._topic} held for {seconds * 1000:.0f} ms: a program that ends lets "
                 f"go; publish 10 times a second for as long as robot {self._robot} is to move"
             )
 
-    def advise(self, message: Message, moving: bool, steers: bool) -> None:
+    def advise(self, message: Message, moving: bool) -> None:
         """Say of a command that no robot on wheels does it; to a program, once, that this one does less."""
         if not moving:
             if asks_in_vain(message):
                 self._log.warn(f"what is said on {self._topic} moves nothing: {IN_VAIN}")
         elif words := beyond_ends(message, self._heard.vehicle):
             self._log.warn(f"what is said on {self._topic} is {MORE}: {words}")
-        elif self._advised is not None:
-            self._advise_once("steers", STEERS_ONLY if steers else "", "turns front wheels and moves nothing")
-            for what, unmet in UNMET:
-                self._advise_once(unmet.__name__, unmet(message, self._heard.vehicle), what)
-
-    def _advise_once(self, about: str, words: str, what: str) -> None:
-        if words and self._advised is not None and about not in self._advised:
-            self._advised.add(about)
-            self._log.warn(f"what is said on {self._topic} {what}: {words}")
+        elif self._untold:
+            found = {unmet: unmet(message, self._heard.vehicle) for unmet in self._untold}
+            for unmet, words in found.items():
+                if words:
+                    self._log.warn(f"what is said on {self._topic} {self._untold.pop(unmet)}: {words}")
 
     def heed(self, moving: bool, steers: bool = False) -> None:
         """Take in what the robot has answered; only who wants to move something misses it.
@@ -165,7 +164,7 @@ class Answer:
         advice = ADVICE.get(why, "")
         if not advice:
             return why + rest, why + rest
-        if advice is ANEW and self._advised is None:
+        if advice is ANEW and self._untold is None:
             advice = LET_GO
         return why + rest, f"{why.partition('; ')[0]}{rest}; {advice}"
 

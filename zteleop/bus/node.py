@@ -20,6 +20,7 @@ from zteleop.bus.subscription import Received, Subscription
 from zteleop.bus.topics import topic_of
 from zteleop.bus.types import SERVICE, OwnTypes
 from zteleop.control.proof import Prover
+from zteleop.control.settings import INPUTS
 from zteleop.errors import ConfigError, MessageError
 from zteleop.interfaces.parameters import Value
 from zteleop.machine import signals, stderr
@@ -31,7 +32,6 @@ Q = TypeVar("Q", bound=Message)
 R = TypeVar("R", bound=Message)
 V = TypeVar("V", bound=Value)
 Types = type[M] | tuple[type[M], ...]
-
 
 PROGRAM = "program"
 """what a publisher of commands is, unless it says which input"""
@@ -144,7 +144,7 @@ class Node:
         heard = self.membership.heard(name.robot)
         found = self._await(name.robot) if wait else True
         sender = new_id()
-        is_program = source == PROGRAM
+        is_program = source not in INPUTS
         answer = Answer(f"{sender:x}", said, name.robot, heard, self.log, self._hint, is_program)
         if not found:
             answer.miss()

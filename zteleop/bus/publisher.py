@@ -129,6 +129,6 @@ class Publisher(Generic[M]):
         if self._answer:
             steers = steers_only(message, self._heard.vehicle)
             self._answer.heed(moving, steers)
-            self._answer.advise(message, moving, steers)
+            self._answer.advise(message, moving)
         proof = self._prover.prove(self._heard.beat, moving, clock.now(), self._heard.awake_since)
         return codec.pack_proof(proof) if proof else None

@@ -66,8 +66,7 @@ def why_silent(name: Name, endpoints: Iterable[Endpoint], unreached: Sequence[st
             f"{_people(speakers)} {_verb('publish', speakers)} it, and says nothing now"
             f"{_instead(name, speakers, endpoints)}{told}"
         )
-    instead = _others(name, "pub", endpoints, unreached)
-    return f"nobody publishes it{instead}{told or (SAID_BY.get(name.path, '') if instead == ' now' else '')}"
+    return f"nobody publishes it{_others(name, 'pub', endpoints, unreached)}{told}"
 
 
 def who_hears(name: Name, endpoints: Iterable[Endpoint], unreached: Sequence[str] = ()) -> str:
@@ -96,7 +95,7 @@ def _others(name: Name, kind: Kind, endpoints: list[Endpoint], unreached: Sequen
         return f"; robot {name.robot} is not heard; {who_is_here(robots, name.robot, unreached)}"
     topics = {topic_of(one.topic).name for one in others if (one.robot, one.kind) == (name.robot, kind)}
     if topic_of(name.path).types or not topics:
-        return " now"
+        return f" now{SAID_BY.get(name.path, '') if kind == 'pub' else ''}"
     if question := meant(name.path, topics | TOPICS.keys()):
         return f"; {question}"
     # Whoever hears a topic of somebody's own is yet to come; whoever waits for one is told what there is.

@@ -1,14 +1,12 @@
 """What became of the commands that a verb said."""
 
 import sys
-from math import tan
 from typing import TypeVar
 
 from zteleop.bus import clock, presence
 from zteleop.bus.escape import printable
 from zteleop.bus.node import Node
 from zteleop.bus.publisher import Publisher
-from zteleop.control import curvature
 from zteleop.control.command import IN_VAIN, asks_in_vain, moves
 from zteleop.control.proof import NEVER
 from zteleop.errors import BusError
@@ -57,7 +55,7 @@ class Outcome:
         """what the robot said last"""
         self.heard_at = NEVER
         self._told = False
-        """It was said that more is asked for than the robot can."""
+        """It was said that more is asked for than the robot may do now."""
         node.subscription("drive_status", DriveStatus, lambda received: self._heed(received.message))
 
     def note(self, message: Message) -> None:
@@ -97,21 +95,13 @@ class Outcome:
     def _heed(self, status: DriveStatus) -> None:
         self.status, self.heard_at = status, clock.now()
         self.obeyed |= self._is_ours
-        if self._is_ours and not self._told and (words := self._beyond(status)):
+        if self._is_ours and not self._told and (words := self._slowed(status)):
             self._told = True
             print(printable(f"zteleop {self._verb}: {words}"), file=sys.stderr, flush=True)
 
-    def _beyond(self, status: DriveStatus) -> str:
-        """Return what is asked for beyond what the robot makes of it; nothing where all of it is within."""
-        speed, turn = abs(status.wanted.linear.x), abs(status.wanted.angular.z)
-        vehicle = self._node.membership.heard().vehicle
-        if speed > TOLERANCE * status.max_speed:
-            why = f": {status.slowed}" if status.slowed else ""
-            return f"{speed:.3g} m/s are asked for, and it makes {status.max_speed:.3g} at most{why}"
-        if vehicle and turn > TOLERANCE * vehicle.max_turn:
-            return f"{turn:.3g} rad/s are asked for, and it makes {vehicle.max_turn:.3g} at most"
-        if vehicle and vehicle.steers and curvature.rolls(speed):
-            lock = speed * tan(vehicle.max_steering_angle) / vehicle.wheelbase
-            if turn > TOLERANCE * lock:
-                return f"{turn:.3g} rad/s are asked for, and at {speed:.3g} m/s it makes {lock:.2g} at most"
-        return ""
+    def _slowed(self, status: DriveStatus) -> str:
+        """Return what keeps the robot from a speed that it could do; what it cannot, its publisher says."""
+        speed = abs(status.wanted.linear.x)
+        if not status.slowed or speed <= TOLERANCE * status.max_speed:
+            return ""
+        return f"{speed:.3g} m/s are asked for, and it makes {status.max_speed:.3g} at most: {status.slowed}"

@@ -94,6 +94,7 @@ def run(arguments: argparse.Namespace) -> int:
         _bad_link.worsen(node, arguments)
         await_robot(node, children, Path(log.name))
         if arguments.web:
+            print(f"{HIDDEN}\n" * hidden, end="")
             web.drive_from_page(node, Config(bus=bus), port=0)
             return 0
         if screen:

@@ -65,12 +65,17 @@ def answer(node: Node) -> str:
     ]
     lines += [f"  {layer.name:9} {layer.says}" for layer in (why.layers if why else [])]
     lines.append(f"  {'watchdog':9} {state_of(dog) if dog else 'is not heard'}")
-    odoms = _company.members(resolve("odom", node.robot), "pub", presence.endpoints(node.membership.session))
-    if status and not odoms:
+    if status and not _is_placed(node):
         lines.append(f"  {'odom':9} {UNPLACED}")
     lines += [f"  {'who':9} {who}" for who in named("\n".join(lines), node)]
     lines.append(f"  {'at':9} {_moment()}")
     return "\n".join(map(printable, lines))
+
+
+def _is_placed(node: Node) -> bool:
+    """Say whether anybody says where the robot is."""
+    endpoints = presence.endpoints(node.membership.session)
+    return bool(_company.members(resolve("odom", node.robot), "pub", endpoints))
 
 
 def _moment() -> str:

@@ -15,14 +15,12 @@ from zteleop.control.snapshot import Snapshot
 from zteleop.control.unmet import aside
 from zteleop.messages import Layer, Pwm, Twist
 
-LEAST = 0.005
-"""m/s below which nobody gets anywhere"""
 OLD = 0.1
 """s after which pulses are no longer what the robot means now"""
 REFUSES = 1.0
 """s after which a refusal is no longer what the gate does"""
 _LEAST = 0.005
-"""m/s or rad/s below which two twists are one."""
+"""m/s or rad/s below which two twists are one, and a speed is none."""
 
 
 def layers(seen: Snapshot, chip: Evidence) -> list[Layer]:
@@ -50,7 +48,7 @@ def slowed(seen: Snapshot) -> str:
     if claim is None or bound.by == "vehicle":
         return ""
     if bound.by == "source":
-        return f"{claim.source} may drive no faster here" if bound.speed >= LEAST else _kept(claim.source)
+        return f"{claim.source} may drive no faster here" if bound.speed >= _LEAST else _kept(claim.source)
     return _age(seen, claim)  # the link
 
 
@@ -214,7 +212,7 @@ def _top(source: str, bound: Bound) -> str:
     speed = f"{_metres(bound.speed)} m/s"
     words = {
         "vehicle": f"it does {speed} at most",
-        "source": f"{source} may drive {speed} here" if bound.speed >= LEAST else _kept(source),
+        "source": f"{source} may drive {speed} here" if bound.speed >= _LEAST else _kept(source),
         "parameter": f"limits.speed is set to {speed}",
     }
     return words.get(bound.by, f"it may do {speed} now")

@@ -70,6 +70,7 @@ class Servo(Struct, frozen=True, forbid_unknown_fields=True):
 
     def _dead_ticks(self, tick_us: float) -> int:
         """Return how many ticks off neutral, to either side, a pulse is still within the dead zone."""
-        neutral, ends = round(self.neutral_us / tick_us), (self.neutral_us, self.dead_zone_us)
-        up, down = floor(sum(ends) / tick_us + EVEN), ceil((ends[0] - ends[1]) / tick_us - EVEN)
-        return max(0, up - neutral, neutral - down) if self.dead_zone_us else 0
+        neutral = round(self.neutral_us / tick_us)
+        up = floor((self.neutral_us + self.dead_zone_us) / tick_us + EVEN) - neutral
+        down = neutral - ceil((self.neutral_us - self.dead_zone_us) / tick_us - EVEN)
+        return max(0, up, down) if self.dead_zone_us else 0

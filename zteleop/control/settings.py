@@ -25,6 +25,8 @@ SOURCES = {
     "program": Source(priority=50, silence=PROGRAM_SILENCE),
     "planner": Source(priority=10, silence=PROGRAM_SILENCE),
 }
+INPUTS = ("web", "gamepad", "keyboard", "buttons")
+"""those at which a person sits, who sees what is obeyed; any other is a program"""
 
 
 class DriveSettings(Struct, frozen=True, forbid_unknown_fields=True):

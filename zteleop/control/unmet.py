@@ -3,8 +3,9 @@
 from math import isfinite
 
 from zteleop.control import curvature
+from zteleop.control.command import STEERS_ONLY, steers_only
 from zteleop.control.stick import tightest
-from zteleop.messages import Message, Pwm, Twist, TwistStamped, Vector3, Vehicle
+from zteleop.messages import Int16MultiArray, Message, Pwm, Twist, TwistStamped, Vector3, Vehicle
 
 ROUNDING = 0.01
 """as a part, by which what is asked for may be more"""
@@ -13,9 +14,10 @@ OBEYED = "a robot on wheels obeys linear.x and angular.z"
 
 def beyond_ends(message: Message, vehicle: Vehicle | None) -> str:
     """Say which ticks lie beyond a servo's ends, and what is obeyed in their place."""
-    if not isinstance(message, Pwm) or vehicle is None:
+    pwm = _pwm(message)
+    if pwm is None or vehicle is None:
         return ""
-    asked = {"steering": message.steering_ticks, "throttle": message.throttle_ticks}
+    asked = {"steering": pwm.steering_ticks, "throttle": pwm.throttle_ticks}
     found = []
     for channel in vehicle.channels:
         low, high = sorted((channel.min_ticks, channel.max_ticks))
@@ -24,6 +26,11 @@ def beyond_ends(message: Message, vehicle: Vehicle | None) -> str:
             end = high if ticks > high else low
             found.append(f"{channel.name} {ticks} ticks is obeyed as {end}, its end")
     return "; ".join([*found, f"a tick is {vehicle.tick_us:.3g} us"]) if found else ""
+
+
+def spins(message: Message, vehicle: Vehicle | None) -> str:
+    """Say that a car does not turn on the spot."""
+    return STEERS_ONLY if steers_only(message, vehicle) else ""
 
 
 def too_fast(message: Message, vehicle: Vehicle | None) -> str:
@@ -58,9 +65,9 @@ def too_slow(message: Message, vehicle: Vehicle | None) -> str:
     if vehicle is None or throttle is None or not throttle.dead_ticks:
         return ""
     dead = throttle.dead_ticks
-    if isinstance(message, Pwm):
+    if pwm := _pwm(message):
         ends = f"{throttle.neutral_ticks - dead} to {throttle.neutral_ticks + dead}"
-        ticks = message.throttle_ticks
+        ticks = pwm.throttle_ticks
         return f"throttle {ticks} is in its motor's dead zone, {ends}" if throttle.is_dead(ticks) else ""
     twist = _twist(message)
     if twist is None or not vehicle.steers or not isfinite(twist.linear.x):
@@ -92,6 +99,12 @@ def _aside(name: str, vector: Vector3) -> list[str]:
 def _twist(message: Message) -> Twist | None:
     twist = message.twist if isinstance(message, TwistStamped) else message
     return twist if isinstance(twist, Twist) else None
+
+
+def _pwm(message: Message) -> Pwm | None:
+    if isinstance(message, Int16MultiArray):
+        return Pwm(*message.data[:2]) if len(message.data) > 1 else None
+    return message if isinstance(message, Pwm) else None
 
 
 def _more(asked: float, most: float) -> bool:

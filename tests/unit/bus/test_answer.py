@@ -7,7 +7,6 @@ from zteleop.bus.answer import ADVICE, LASTS, UNHEARD, Answer
 from zteleop.bus.heard import Heard
 from zteleop.bus.log import NodeLog
 from zteleop.bus.subscription import Subscription
-from zteleop.control.command import steers_only
 from zteleop.control.gate import Refusal
 from zteleop.control.mixer import Differential
 from zteleop.control.report import to_vehicle
@@ -16,7 +15,9 @@ from zteleop.control.settings import DONKEYCAR, DriveSettings
 from zteleop.messages import (
     Beat,
     Header,
+    Int16MultiArray,
     Message,
+    MultiArrayLayout,
     Pwm,
     Refusals,
     Refused,
@@ -61,7 +62,7 @@ class Sender:
             self.answer.heed(moving)
 
     def advise(self, message: Message, moving: bool) -> None:
-        self.answer.advise(message, moving, steers_only(message, self.heard.vehicle))
+        self.answer.advise(message, moving)
 
     @property
     def news(self) -> list[str]:
@@ -293,9 +294,10 @@ def test_ticks_beyond_the_ends_of_a_servo_are_told_with_what_is_obeyed(sender: S
     assert sender.news == []
     sender.advise(Pwm(1500, 400), True)
     (line,) = sender.news
-    assert (
-        "more than the robot does: steering 1500 ticks is obeyed as 460, its end; a tick is 4.08 us" in line
-    )
+    words = "steering 1500 ticks is obeyed as 460, its end; a tick is 4.08 us"
+    assert line.endswith(f"more than the robot does: {words}")
+    sender.advise(Int16MultiArray(MultiArrayLayout.zero(), [1500, 0]), True)
+    assert f"throttle 0 ticks is obeyed as 220, its end; {words}" in sender.news[0]
 
 
 def test_a_tank_turns_on_the_spot(sender: Sender) -> None:

@@ -67,6 +67,18 @@ def test_a_command_echoes_what_whoever_acts_has_heard(node: Node, session: Sessi
     assert (proof.epoch, proof.beat) == (1, 5.0)
 
 
+@pytest.mark.parametrize(("source", "told"), [("web", 0), ("keyboard", 0), ("program", 1), ("planner", 1)])
+def test_whoever_is_no_input_is_told_what_no_wheels_do(
+    node: Node, session: Session, source: str, told: int
+) -> None:
+    lines: list[str] = []
+    node.log.show = lines.append
+    asked = Twist.planar(0.1)
+    asked.linear.y = 0.1
+    node.publisher("cmd_vel", Twist, source=source, wait=False).publish(asked)
+    assert sum("linear.y 0.1; a robot on wheels obeys linear.x" in line for line in lines) == told
+
+
 def test_a_node_without_a_robot_is_nobodys(stranger: Node, session: Session) -> None:
     assert session.alive == []
     stranger.log.warn("smells odd")

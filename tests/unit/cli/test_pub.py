@@ -104,13 +104,17 @@ def test_what_is_said_so_many_times_stays_said_for_as_long_as_it_is_obeyed() -> 
     ("asked", "slowed", "words"),
     [
         (Twist.planar(0.5), "", ""),
-        (Twist.planar(-50.0, 1.0), "", "50 m/s are asked for, and it makes 0.5 at most\n"),
+        (Twist.planar(-50.0, 1.0), "", ""),  # what it cannot, its publisher says
         (
             Twist.planar(0.6),
             "limits.speed is set to 0.5 m/s",
             "0.6 m/s are asked for, and it makes 0.5 at most: limits.speed is set to 0.5 m/s\n",
         ),
-        (Twist.planar(0.0, 99.0), "", "99 rad/s are asked for, and it makes"),
+        (
+            Twist.planar(-50.0),
+            "nav may drive no faster here",
+            "50 m/s are asked for, and it makes 0.5 at most: nav may drive no faster here\n",
+        ),
     ],
 )
 def test_who_asks_for_more_than_the_robot_makes_is_told_once(

@@ -38,6 +38,12 @@ def test_donkeycars_calibration_in_ticks_at_60_hz() -> None:
     assert (throttle.min_ticks, throttle.neutral_ticks, throttle.max_ticks) == (220, 370, 500)
 
 
+@pytest.mark.parametrize(("dead_zone_us", "ticks"), [(20.4, 5), (20.0, 4), (134.64, 33), (0.0, 0)])
+def test_a_dead_zone_of_whole_ticks_ends_on_the_last_of_them(dead_zone_us, ticks):
+    servo = Servo(0, neutral_us=1248.48, dead_zone_us=dead_zone_us)  # 306 ticks, as floats go
+    assert servo.to_channel("throttle", 4.08).dead_ticks == ticks
+
+
 @pytest.mark.parametrize(("dead_zone_us", "ticks"), [(0.0, 0), (1.0, 0), (4.0, 1), (15.0, 4), (22.0, 5)])
 def test_a_dead_zone_is_told_in_whole_ticks_that_turn_nothing(dead_zone_us, ticks):
     assert Servo(0, dead_zone_us=dead_zone_us).to_channel("throttle", 4.08).dead_ticks == ticks

@@ -85,8 +85,9 @@ export class Bus {
   /** Say all that is held: a state and no change of one, so that nothing that gets lost is missed. */
   sayHeld() {
     const stick = this.held();
-    this.last = stick.deadman ? LAST_WORDS : this.last - 1;
-    if (this.last < 0 || !this.socket || this.socket.bufferedAmount > FULL) return;
+    if (!this.socket || this.socket.bufferedAmount > FULL) return;
+    this.last = stick.deadman ? LAST_WORDS : Math.max(this.last - 1, -1);
+    if (this.last < 0) return;
     this.seq += 1;
     const { epoch, time } = this.beat;
     this.say({ is: "held", seq: this.seq, ...stick, epoch, beat: time });

@@ -44,9 +44,14 @@ bus.topics.push(...TOPICS);
 /** @returns {import("./bus.js").Stick} */
 function stick() {
   const now = held.stick();
-  at("stick").dataset.held = String(now.deadman && known.obeyed);
+  at("stick").dataset.held = String(now.deadman && obeyed());
   knob(-now.turn, -now.drive);
   return { ...now, drive: now.drive * share("forward"), turn: now.turn * share("turning") };
+}
+
+/** @returns {boolean} whether the robot does what this very page holds */
+function obeyed() {
+  return known.obeyed && known.holder === known.you;
 }
 
 /**
@@ -124,8 +129,7 @@ function heard(topic, message) {
 function status(said) {
   known.heard = performance.now();
   const who = said.operator ? `${said.source} ${said.operator.slice(-4).padStart(4, "0")}` : "";
-  const mine = known.obeyed && known.holder === known.you;
-  const word = said.state === "driving" ? (mine ? "driving, you operate" : `driving, ${who} operates`) : said.state;
+  const word = said.state === "driving" ? (obeyed() ? "driving, you operate" : `driving, ${who} operates`) : said.state;
   tell(said.state, word, disobeyed(said.state) || said.why);
   show("asked", twisted(said.wanted));
   show("allowed", twisted(said.applied) + (said.slowed ? `, at most ${said.max_speed.toFixed(2)} m/s: ${said.slowed}` : ""));
@@ -141,13 +145,14 @@ function status(said) {
  * @returns {string} why what this page holds moves nothing; nothing where it does, or the robot says why itself
  */
 function disobeyed(state) {
-  const asks = held.stick().deadman;
-  if (!asks || known.obeyed) known.since = performance.now();
-  if (!asks || known.obeyed) return "";
+  if (!held.stick().deadman || obeyed()) {
+    known.since = performance.now();
+    return "";
+  }
+  if (known.holder && known.holder !== known.you) return `you are not obeyed: ${known.holder} has the wheel`;
   if (known.refused) return `you are not obeyed: ${known.refused}`;
-  if (state !== "idle" || performance.now() - known.since < SOON) return "";
-  const other = known.holder && known.holder !== known.you;
-  return `you are not obeyed: ${other ? `${known.holder} has the wheel` : "let go, and begin anew"}`;
+  const silent = state === "idle" && performance.now() - known.since > SOON;
+  return silent ? "you are not obeyed: let go, and begin anew" : "";
 }
 
 /** @param {any} said zteleop_msgs/msg/Vehicle */
