@@ -203,3 +203,68 @@ def test_a_page_with_another_token_says_where_the_right_one_is(browser: Browser,
     )
     page.close()
     server.says("the token is missing or wrong")
+
+
+def test_what_is_said_on_the_bus_is_shown_as_it_comes_and_drawn_as_lines(
+    rig: Rig, browser: Browser, server: Process
+) -> None:
+    with opened(browser, server) as page:
+        page.locator("#tab-topics").click()
+        odom = page.locator("#topics-list button", has_text="odom")
+        expect(odom).to_contain_text(re.compile(r"(19|20|21)/s"))
+        odom.click()
+        expect(page.locator("#topics-echo")).to_contain_text("base_link")
+        page.get_by_label("twist.twist.linear.x", exact=True).check()
+        expect(page.locator("#plot-picture canvas")).to_be_visible()
+        expect(page.locator("#plot-lines li")).to_have_text(re.compile("^odom twist.twist.linear.x"))
+        page.keyboard.down("KeyW")  # the box that was ticked has the focus, and keeps no key
+        drives(rig)
+        speed = page.locator("#plot-lines output")
+        expect(speed).to_have_text(re.compile(r"^0\.[2-9]"))
+        page.keyboard.up("KeyW")
+        rests(rig)
+        expect(speed).to_have_text("0")
+        with page.expect_download() as saved:
+            page.locator("#plot-save").click()
+        head, *rows = saved.value.path().read_text().splitlines()
+        assert head == "time_s,odom twist.twist.linear.x"
+        times, speeds = zip(*(map(float, row.split(",")) for row in rows), strict=True)
+        assert list(times) == sorted(times)
+        assert max(speeds) > 0.2
+        page.locator("#plot-lines button", has_text="\u00d7").click()
+        expect(page.locator("#plot-picture")).to_be_hidden()
+        expect(page.get_by_label("twist.twist.linear.x", exact=True)).not_to_be_checked()
+
+
+def test_a_picture_that_is_paused_stays(rig: Rig, browser: Browser, server: Process) -> None:
+    with opened(browser, server) as page:
+        page.locator("#tab-topics").click()
+        page.locator("#topics-list button", has_text="beat").click()
+        page.get_by_label("time", exact=True).check()
+        value = page.locator("#plot-lines output")
+        expect(value).not_to_have_text("-")
+        pictured = "document.querySelector('#plot-picture canvas').toDataURL()"
+        page.locator("#plot-pause").click()
+        before = page.evaluate(pictured)
+        expect(page.locator("#topics-list button", has_text="beat")).to_contain_text("/s")
+        page.wait_for_timeout(300)  # in which it would have been drawn six times
+        assert page.evaluate(pictured) == before
+        page.locator("#plot-pause").click()
+        until(lambda: page.evaluate(pictured) != before, "it goes on")
+
+
+def test_nodes_and_topics_are_a_drawing_in_which_a_topic_can_be_chosen(
+    rig: Rig, browser: Browser, server: Process
+) -> None:
+    with opened(browser, server) as page:
+        page.locator("#tab-graph").click()
+        expect(page.locator("#room-topics")).to_be_hidden()
+        nodes = page.locator("#graph .node")
+        for name in ("actuator", "sim", "web", "watchdog"):
+            expect(nodes.filter(has_text=name).first).to_be_visible()
+        expect(page.locator("#graph .rate").filter(has_text=re.compile(r"^\d+/s$")).first).to_be_visible()
+        assert page.locator("#graph .arrow.alive").count() > 3
+        page.locator("#graph .topic").filter(has_text="vehicle").click()
+        expect(page.locator("#room-topics")).to_be_visible()
+        expect(page.locator("#topics-echo")).to_contain_text("ackermann")
+        expect(page.locator("#graph")).to_be_hidden()

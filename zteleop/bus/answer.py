@@ -159,9 +159,13 @@ class Answer:
 
     def _find(self, told: Refusals) -> tuple[str, str]:
         """Return the robot's words, and the sentence to tell: what it is, and one advice."""
-        why = next((refused.why for refused in told.refused if refused.sender == self._sender), "")
-        rest = f" ({told.rest})" if why and told.rest else ""
+        ours = next((refused for refused in told.refused if refused.sender == self._sender), None)
+        if ours is None:
+            return "", ""
+        why, rest = ours.why, f" ({told.rest})" if told.rest else ""
         advice = ADVICE.get(why, "")
+        if ours.by:
+            why = why.replace("another sender", ours.by)
         if not advice:
             return why + rest, why + rest
         if advice is ANEW and self._untold is None:

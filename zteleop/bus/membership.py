@@ -44,6 +44,7 @@ class Membership:
         self._deliveries: list[Delivery] = []
         self._heard: dict[str, Heard] = {}
         self._handles = False
+        self.has_spun = False
         self._closed = threading.Event()
 
     def close(self) -> None:
@@ -106,6 +107,7 @@ class Membership:
         """Run the loop until it is stopped, or for some seconds; raises BusError once it is closed."""
         if self._closed.is_set():
             raise BusError(f"node {self._node} is closed; spin inside its `with`")
+        self.has_spun = True
         with self.handling():
             self.loop.run(None if seconds is None else clock.now() + seconds)
 

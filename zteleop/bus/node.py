@@ -1,9 +1,9 @@
 """A node: a name on the bus, with publishers, subscriptions and timers, single-threaded for its user."""
 
 from collections.abc import Callable, Sequence
-from typing import Any, Self, TypeVar
+from typing import TYPE_CHECKING, Any, Self, TypeVar
 
-from zteleop.bus import presence, times
+from zteleop.bus import presence, rclpy_names, times
 from zteleop.bus.answer import Answer
 from zteleop.bus.heard import HEARD_WITHIN
 from zteleop.bus.hearers import Hearers
@@ -18,10 +18,10 @@ from zteleop.bus.settings import BusSettings
 from zteleop.bus.speakers import Speakers
 from zteleop.bus.subscription import Received, Subscription
 from zteleop.bus.topics import topic_of
-from zteleop.bus.types import SERVICE, OwnTypes
+from zteleop.bus.types import SERVICE, OwnTypes, Types, kinds_of
 from zteleop.control.proof import Prover
 from zteleop.control.settings import INPUTS
-from zteleop.errors import ConfigError, MessageError
+from zteleop.errors import ConfigError
 from zteleop.interfaces.parameters import Value
 from zteleop.machine import signals, stderr
 from zteleop.machine.ids import new_id
@@ -31,7 +31,6 @@ M = TypeVar("M", bound=Message)
 Q = TypeVar("Q", bound=Message)
 R = TypeVar("R", bound=Message)
 V = TypeVar("V", bound=Value)
-Types = type[M] | tuple[type[M], ...]
 
 PROGRAM = "program"
 """what a publisher of commands is, unless it says which input"""
@@ -50,7 +49,8 @@ class Node:
         session: Session | None = None,
     ) -> None:
         self._commands: list[Publisher[Any]] = []
-        self._has_spun = False
+        self._waits_for_spin = ""
+        """what a program that never spins does in vain"""
         self.name = chunk(name, "a node's name")
         self.robot = robot_name(robot) if robot else None
         self._hint = "" if bus or session else READS_NO_FILE
@@ -75,8 +75,10 @@ class Node:
         self._undo_signals = signals.unwind()
         return self
 
-    def __exit__(self, *exc: object) -> None:
+    def __exit__(self, error: type[BaseException] | None, *exc: object) -> None:
         try:
+            if self._waits_for_spin and not error and not self.membership.has_spun:
+                self.log.warn(f"{self._waits_for_spin}: node.spin() runs what waits, and was not called")
             self.close()
         finally:
             self._undo_signals()
@@ -85,7 +87,7 @@ class Node:
         """Let go of every robot and leave the bus: others see this node go, and its threads end."""
         try:
             for commands in self._commands:
-                commands.leave(tell_brief=not self._has_spun)
+                commands.leave(tell_brief=not self.membership.has_spun)
         finally:
             self.membership.close()
             stderr.flush()
@@ -114,7 +116,7 @@ class Node:
         For a command it first waits for the robot, as `await_robot` does, unless told not to.
         Raises ConfigError when the topic's name is none, or the topic takes other types.
         """
-        name, kinds = resolve(topic, self.robot), _tuple(types)
+        name, kinds = resolve(topic, self.robot), kinds_of(types)
         about = topic_of(name.path)
         if about.types and not set(kinds) <= set(about.types):
             takes = " or ".join(accepted.__name__ for accepted in about.types)
@@ -177,9 +179,10 @@ class Node:
         message is dropped, counted, and said in the log unless somebody else does.
         """
         self._notice_typo(topic, "hears {}, which no robot says")
-        self._types.add(resolve(topic, self.robot).robot, _tuple(types))
-        inbox: Subscription[M] = self.membership.inbox(topic, _tuple(types), depth, complain)
+        self._types.add(resolve(topic, self.robot).robot, kinds_of(types))
+        inbox: Subscription[M] = self.membership.inbox(topic, kinds_of(types), depth, complain)
         if handler:
+            self._waits_for_spin = f"nothing of {topic} was handled"
             self.membership.deliver(inbox, handler)
         else:
             inbox.on_wait = lambda: self._miss_speakers(resolve(topic, self.robot), in_loop=False)
@@ -270,6 +273,7 @@ class Node:
             raise ConfigError(f"a timer's period is in s, as in @node.every(0.1), and found {period!r:.40}")
 
         def decorate(function: Callable[[], object]) -> Callable[[], object]:
+            self._waits_for_spin = f"{getattr(function, '__name__', 'its timer')}() never ran"
             self.membership.loop.every(period, function)
             return function
 
@@ -277,12 +281,14 @@ class Node:
 
     def spin(self, seconds: float | None = None) -> None:
         """Run handlers and timers until `stop`, a signal, or for some seconds."""
-        self._has_spun = True
         self.membership.spin(seconds)
 
     def stop(self) -> None:
         """End the present `spin`, or the next one; safe from any thread."""
         self.membership.loop.stop()
+
+    if not TYPE_CHECKING:  # which knows better what a Node has
+        __getattr__ = rclpy_names.miss
 
     def _complain(self, text: str) -> None:
         self.log.warn(text, text.partition(":")[0])
@@ -290,11 +296,3 @@ class Node:
     def _say(self, log: Log) -> None:
         if self._log_publisher:
             self._log_publisher.publish(log)
-
-
-def _tuple(types: Types[M]) -> tuple[type[M], ...]:
-    kinds = types if isinstance(types, tuple) else (types,)
-    for kind in kinds:
-        if not (isinstance(kind, type) and issubclass(kind, Message)):
-            raise MessageError(f"expected a type of message, such as zteleop.Odometry, found {kind!r:.80}")
-    return kinds

@@ -1,6 +1,7 @@
 """Types that travel: a node tells what its own messages are made of to whoever has never imported them."""
 
 from collections.abc import Callable, Iterable
+from typing import TypeVar
 
 import msgspec
 
@@ -11,8 +12,20 @@ from zteleop.bus.session import Session
 from zteleop.errors import BusError, MessageError
 from zteleop.messages import MESSAGES, GetTypeRequest, GetTypeResponse, Message, is_called
 
+M = TypeVar("M", bound=Message)
+Types = type[M] | tuple[type[M], ...]
+
 SERVICE = "get_type"
 ANSWERED_WITHIN = 1.0
+
+
+def kinds_of(types: Types[M]) -> tuple[type[M], ...]:
+    """Return types of messages as a tuple; raises MessageError for what is none."""
+    kinds = types if isinstance(types, tuple) else (types,)
+    for kind in kinds:
+        if not (isinstance(kind, type) and issubclass(kind, Message)):
+            raise MessageError(f"expected a type of message, such as zteleop.Odometry, found {kind!r:.80}")
+    return kinds
 
 
 class OwnTypes:

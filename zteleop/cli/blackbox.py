@@ -18,6 +18,7 @@ from zteleop.recording import blackbox_file
 from zteleop.recording.amounts import SECOND, span
 from zteleop.recording.blackbox_file import Header, Recorded, Recording
 from zteleop.recording.timeline import Event, timeline
+from zteleop.recording.triggers import STOP
 
 EXAMPLES = (
     "zteleop blackbox",
@@ -55,6 +56,8 @@ def run(arguments: argparse.Namespace) -> None:
         print(f"({printable(str(path))})")
         more = "the next comes 1 to 10 s late, and none from a robot that lost its power"
         print(f"({_age(recording.header)} old; {more})")
+        if stop := _last_stop(path):
+            print(f"(the last stop: zteleop blackbox {printable(str(stop))})")
 
 
 def _age(header: Header) -> str:
@@ -86,6 +89,13 @@ def _newest(robot: str | None) -> Path:
             f"shows one from elsewhere{near}"
         )
     return found[-1]
+
+
+def _last_stop(shown: Path) -> Path | None:
+    """Return the file of the robot's last stop, where the one that is shown is of something later."""
+    files = blackbox_file.in_order(blackbox_file.files(shown.parent))
+    stops = [path for path in files if blackbox_file.reason_of(path) == STOP]
+    return stops[-1] if stops and stops[-1] != shown else None
 
 
 def _near(robot: str | None) -> str:

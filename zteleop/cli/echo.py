@@ -43,7 +43,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--filter", metavar="EXPR", help="messages of which it is true: 'm.twist.linear.x > 0.2'"
     )
     shown.add_argument("--once", action="store_true", help="print one message and end")
-    shown.add_argument("--count", metavar="N", type=_options.count, help="print N messages and end")
+    shown.add_argument("-n", "--count", metavar="N", type=_options.count, help="print N messages and end")
     shown.add_argument(
         "--timeout", metavar="TIME", type=_options.seconds, help="give up after so long a silence: 5, 500ms"
     )
@@ -51,7 +51,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     shown.add_argument("--since", metavar="TIME", type=_options.seconds, help=since)
     form = parser.add_argument_group("how it looks")
     form.add_argument("--json", action="store_true", help="one message a line, as JSON")
-    form.add_argument("--csv", action="store_true", help="one message a row, its values joined by commas")
+    form.add_argument("-p", "--csv", action="store_true", help="one message a row, its values in columns")
     form.add_argument("--header", action="store_true", help="with --csv: first a row of the names")
     form.add_argument("--raw", action="store_true", help="its bytes, as they came")
     form.add_argument("--flow-style", action="store_true", help="YAML in one line")

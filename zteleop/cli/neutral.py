@@ -64,7 +64,7 @@ def run(arguments: argparse.Namespace) -> None:
     try:
         open_driver(name, chip).close()
     except DeviceError as error:
-        raise DeviceError(f"neutral was written, but {error}, for it may write again") from error
+        raise DeviceError(f"neutral was written, but may not last: {error}") from error
     pulses = calibration.pulses(calibration.neutral_us)
     where = f"the simulated chip {chip['path']}" if name == "simulated" else f"the chip of {name}"
     print(

@@ -126,13 +126,14 @@ def _say(
     A repeated motion ends with a neutral, a counted one after `stay` s.
     """
     said, pace = 0, Pace(rate)
+    most = times if lasts is None else max(round(lasts * rate), 1)
     if resume:
         node.subscription("drive_status", DriveStatus, lambda received: resume.heed(received.message))
 
     @node.every(1 / rate)
     def say() -> None:
         nonlocal said
-        if said == times:
+        if said == most:
             return
         said += 1
         message = make()

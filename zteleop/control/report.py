@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from zteleop.control.drive import Drive, Step
 from zteleop.control.evidence import Evidence
 from zteleop.control.explain import applied, slowed, top_speed, wanted
+from zteleop.control.gate import Refusal
 from zteleop.control.mux import Claim
 from zteleop.control.proof import called
 from zteleop.control.refusals import Turned
@@ -79,5 +80,16 @@ def overridden(seen: Snapshot, claim: Claim) -> str | None:
 def refusals(drive: Drive, refused: dict[int, Turned], now: float) -> Refusals:
     """Return what a robot says to those whose commands do not count."""
     rest = drive.admission.holds.strongest
-    told = [Refused(f"{who:x}", last.source, last.why, now - last.since) for who, last in refused.items()]
+    told = [
+        Refused(f"{who:x}", last.source, last.why, _holder(drive, last), now - last.since)
+        for who, last in refused.items()
+    ]
     return Refusals(told, rest.why if rest else "", drive.admission.latch.released)
+
+
+def _holder(drive: Drive, last: Turned) -> str:
+    """Return whose source it is meanwhile, for one who is refused because of that."""
+    if last.why is not Refusal.HELD:
+        return ""
+    holders = (one for one in drive.admission.mux.claims if one.source == last.source)
+    return next((called(one.source, f"{one.sender:x}") for one in holders), "")

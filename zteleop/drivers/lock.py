@@ -18,7 +18,7 @@ class Lock:
         except OSError as error:
             owner = os.pread(self._file, 20, 0).decode("ascii", "replace").strip() or "(unknown)"
             self.release()
-            raise DeviceError(f"{what} is driven by process {owner} already; stop it first") from error
+            raise DeviceError(f"{what} is driven by process {owner} already; {_ended(owner)}") from error
         os.ftruncate(self._file, 0)
         os.pwrite(self._file, f"{os.getpid()}\n".encode(), 0)
 
@@ -31,6 +31,11 @@ class Lock:
         if self._file is not None:
             os.close(self._file)
             self._file = None
+
+
+def _ended(owner: str) -> str:
+    how = f"Ctrl-C where it runs, or kill {owner}" if owner.isdigit() else "Ctrl-C where it runs"
+    return f"stop it first ({how})"
 
 
 def machine_folder() -> str:

@@ -144,6 +144,8 @@ class Refused(Message):
     """In hexadecimal."""
     source: str
     why: Annotated[str, Meta(max_length=200)]
+    by: str
+    """Who drives this source in its place, such as `keyboard 18d4`; empty where nobody does."""
     since: float
     """s."""
 

@@ -8,6 +8,7 @@ from zteleop.screen.view import Unmanned
 
 OWN = ("watchdog", "actuator", "blackbox", "sim")
 """The robot's processes; what other operators' programs complain of is theirs to read."""
+REFUSED = " is refused: "
 NEWS = 10.0
 """s that a line of the log is shown; what it says may be over by then"""
 SILENT = 0.4
@@ -66,7 +67,7 @@ class Sight:
             self.status = None
         if dog := self._watchdogs.newest():
             self.unmanned = _unmanned(dog, self._robot)
-            if self.unmanned and " is refused: " in self._log[0]:
+            if self.unmanned and REFUSED in self._log[0]:
                 self._log = ("", now)
         beat = self._heard.beat
         gone = beat is None or now - self._heard.at > LINK_LOSS
@@ -84,7 +85,7 @@ class Sight:
 
     def _is_over(self, status: DriveStatus) -> bool:
         """Say whether what the log told last is so no more: whatever was in the way, or a refusal."""
-        return status.state == "driving" or " is refused: " in self._log[0]
+        return status.state == "driving" or REFUSED in self._log[0]
 
     @property
     def vehicle(self) -> Vehicle | None:
@@ -113,6 +114,9 @@ class Sight:
         """Return its latest warning, while it is news; all else the status says better."""
         for said in self._logs.take():
             if said.message.name in OWN and said.message.level >= Log.WARN:
-                self._log = (f"{said.message.name}: {said.message.msg}", now)
+                words = said.message.msg
+                if REFUSED in words:
+                    words = words.partition("; ")[0]  # the advice is for whoever was refused
+                self._log = (f"{said.message.name}: {words}", now)
         words, at = self._log
         return words if now - at < NEWS else ""

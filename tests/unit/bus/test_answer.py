@@ -46,8 +46,9 @@ class Sender:
         log = NodeLog("nose", lambda log: None, self.lines.append)
         self.answer = Answer("ff", "cmd_vel", "archangel", self.heard, log, is_program=is_program)
 
-    def refuse(self, why: str = WORDS, sender: str = "ff", rest: str = "") -> None:
-        self.refusals.samples.append(sample(Refusals([Refused(sender, "program", why, 0.6)], rest, 0)))
+    def refuse(self, why: str = WORDS, sender: str = "ff", rest: str = "", by: str = "") -> None:
+        refused = Refused(sender, "program", why, by, 0.6)
+        self.refusals.samples.append(sample(Refusals([refused], rest, 0)))
 
     def say(
         self, seconds: float = 0.0, beats: bool = True, moving: bool = True, listens: bool = True
@@ -413,3 +414,10 @@ def test_where_a_robot_is_said_is_no_help_once_it_was_heard(clock: Clock, was_he
     sender.say(3.0, beats=False)
     (line,) = sender.news
     assert line.endswith("; say where it is") is not was_heard
+
+
+def test_who_drives_meanwhile_is_named(sender: Sender) -> None:
+    sender.refuse(Refusal.HELD, by="keyboard 18d4")
+    sender.say()
+    assert "refused by robot archangel: keyboard 18d4 drives this source; start this anew" in sender.news[0]
+    assert sender.answer.refused.startswith("keyboard 18d4 drives this source; let go")

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import pytest
 from unit.bus.fakes import Outlet, Session, sample
 
-from zteleop.bus import codec, presence
+from zteleop.bus import codec, presence, rclpy_names
 from zteleop.bus.heard import Heard
 from zteleop.bus.names import known_as
 from zteleop.bus.node import Node
@@ -94,6 +94,51 @@ def test_a_nodes_name_is_checked_before_it_joins(name: str) -> None:
 def test_a_robots_name_is_checked_before_it_joins() -> None:
     with pytest.raises(ConfigError, match="a robot's name is"):
         Node("nose", "*")
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("create_timer", r"a Node has no create_timer: here it is node.every\(period\), before a function"),
+        ("create_publisher", r"here it is node.publisher\(topic, type\) \(docs/rclpy.md shows both\)$"),
+        ("zebra", "^a Node has no zebra$"),
+    ],
+)
+def test_names_of_rclpy_are_told_what_they_are_here(node: Node, name: str, words: str) -> None:
+    with pytest.raises(AttributeError, match=words):
+        getattr(node, name)
+
+
+def test_what_a_node_of_rclpy_has_is_told_by_a_name_that_a_node_has(node: Node) -> None:
+    for here in rclpy_names.HERE.values():
+        assert hasattr(node, re.match(r"\w+", here)[0])  # type: ignore[index]
+
+
+@pytest.mark.parametrize("spins", [True, False])
+def test_a_program_that_never_spins_is_told_what_it_does_in_vain(session: Session, spins: bool) -> None:
+    lines: list[str] = []
+    with Node("nose", session=session) as node:
+        node.log.show = lines.append
+        node.every(1.0)(lambda: None)
+        node.on("archangel/odom", Odometry)(print)
+        if spins:
+            node.spin(0.0)
+    words = "nothing of archangel/odom was handled: node.spin() runs what waits, and was not called"
+    assert bool([line for line in lines if words in line]) is not spins
+
+
+def test_a_program_that_failed_is_told_of_nothing_else(session: Session) -> None:
+    lines: list[str] = []
+
+    def fail() -> None:
+        with Node("nose", session=session) as node:
+            node.log.show = lines.append
+            node.every(1.0)(lambda: None)
+            raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        fail()
+    assert lines == []
 
 
 def test_with_leaves_the_bus(session: Session) -> None:

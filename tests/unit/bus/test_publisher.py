@@ -227,7 +227,7 @@ def test_whoever_publishes_hears_that_it_is_refused(operator: Operator) -> None:
     operator.beat(10.0)
     operator.publisher.publish(FORWARD)
     assert operator.publisher.refused == ""
-    operator.refusals.samples.append(sample(Refusals([Refused("ff", "program", "not now", 0.6)], "", 0)))
+    operator.refusals.samples.append(sample(Refusals([Refused("ff", "program", "not now", "", 0.6)], "", 0)))
     operator.publisher.publish(FORWARD)
     assert operator.publisher.refused == "not now"
 

@@ -43,8 +43,10 @@ def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def keep(home: Path, robot: str = "archangel", second: int = 0, said: list[Raw] = SAID) -> Path:
-    trigger = Reason(AT, "link-lost", WHY)
+def keep(
+    home: Path, robot: str = "archangel", second: int = 0, said: list[Raw] = SAID, why: str = "link-lost"
+) -> Path:
+    trigger = Reason(AT, why, WHY)
     time = utc(1_700_000_000 + second)
     header = Header(1, robot, "1", AT, time, trigger.reason, WHY, 60.0, 14, [trigger])
     path = write(home / f"zteleop/robots/{robot}/blackbox", header, said)
@@ -80,6 +82,17 @@ def test_the_newest_is_told_as_a_timeline(
         f"({path})",
         "(2 h 3 min 5 s old; the next comes 1 to 10 s late, and none from a robot that lost its power)",
     ]
+
+
+def test_the_last_stop_is_named_where_something_came_after_it(
+    home: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for second in (0, 60):
+        stop = keep(home, second=second, why="stop")
+    keep(home, "bert", 90, why="stop")
+    assert not [line for line in show(capsys, "archangel") if "last stop" in line]
+    keep(home, second=120)
+    assert show(capsys, "archangel")[-1] == f"(the last stop: zteleop blackbox {stop})"
 
 
 @pytest.mark.parametrize("arguments", [["anna"], ["--robot", "anna"]])

@@ -88,6 +88,13 @@ def test_it_says_it_so_many_times(times: int, capsys: pytest.CaptureFixture[str]
     assert capsys.readouterr().out.startswith("publishing #1: Twist(linear=")
 
 
+def test_ten_times_a_second_for_a_second_are_ten() -> None:
+    node, said = FakeNode(), Said("cmd_vel", "ff")
+    node.spin = lambda seconds=None: [node.loop.run(0.1) for _ in range(12)]
+    pub._say(node, said, lambda: FORWARD, 10.0, None, None, 0.5, None, lasts=1.0)  # type: ignore[arg-type]
+    assert (said.messages, said.lets_go, node.stopped) == ([FORWARD] * 10, 1, False)
+
+
 def test_what_is_repeated_is_let_go_at_the_end() -> None:
     said = Said("cmd_vel", "ff")
     say(FORWARD, None, 5, said)
@@ -145,7 +152,7 @@ def test_who_is_ended_leaves_at_once() -> None:
 def test_it_begins_anew_as_it_resumes(clock: Clock, released: int, lets_go: int) -> None:
     node, said, resume = FakeNode(), Said("cmd_vel", "ff"), Resume("ff")
     resume.heed(status(4))
-    refused = Refused("ff", "program", Refusal.EARLIER_START, 0.6)
+    refused = Refused("ff", "program", Refusal.EARLIER_START, "", 0.6)
     node.membership.robot.refusals = Refusals([refused], "", released)
     say(FORWARD, 3, 3, said, node, resume)
     assert said.lets_go == lets_go
@@ -155,7 +162,7 @@ def test_it_begins_anew_as_it_resumes(clock: Clock, released: int, lets_go: int)
 def test_it_follows_what_the_robot_does_to_know_of_a_stop(clock: Clock) -> None:
     node, resume = FakeNode(), Resume("ff")
     say(FORWARD, 1, 1, None, node, resume)
-    refused = Refused("ff", "program", Refusal.EARLIER_START, 0.6)
+    refused = Refused("ff", "program", Refusal.EARLIER_START, "", 0.6)
     may = []
     for number, operator in ((4, "ff"), (5, "")):
         node.inboxes["drive_status"].handler(SimpleNamespace(message=status(number, operator)))

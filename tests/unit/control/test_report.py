@@ -2,9 +2,11 @@ import pytest
 from unit.control.robot import FORWARD, TICK_US, Robot
 
 from zteleop.control.drive import Step
+from zteleop.control.gate import Refusal
 from zteleop.control.limiter import Limits
 from zteleop.control.mixer import Differential
-from zteleop.control.report import overridden, status, to_vehicle
+from zteleop.control.refusals import Turned
+from zteleop.control.report import overridden, refusals, status, to_vehicle
 from zteleop.control.servo import Servo
 from zteleop.control.settings import DriveSettings
 from zteleop.control.snapshot import snapshot
@@ -95,3 +97,12 @@ def test_a_vehicle_is_described_within_its_limits() -> None:
     servos = {"left": Servo(channel=0), "right": Servo(channel=1)}
     tank = to_vehicle(DriveSettings(mixer=Differential(), servos=servos), TICK_US)
     assert (tank.kind, tank.max_turn, tank.ready) == ("differential", pytest.approx(10.0), True)
+
+
+@pytest.mark.parametrize(("why", "by"), [(Refusal.HELD, "keyboard 0001"), (Refusal.STALE, "")])
+def test_whoever_waits_for_a_source_is_told_whose_it_is(why: Refusal, by: str) -> None:
+    robot = Robot()
+    robot.hold(FORWARD, 0.2)
+    waits = {11: Turned("keyboard", why, 0.0, 0.0), 12: Turned("web", why, 0.0, 0.0)}
+    told = refusals(robot.drive, waits, robot.now).refused
+    assert [(one.sender, one.by) for one in told] == [("b", by), ("c", "")]

@@ -16,7 +16,7 @@ def status(released: int = 0, stop: int = 0, operator: str = "", state: str = "i
 
 
 def refused(why: str = BEGAN_EARLIER, sender: str = "ff", rest: str = "", released: int = 0) -> Refusals:
-    return Refusals([Refused(sender, "program", why, 0.6)], rest, released)
+    return Refusals([Refused(sender, "program", why, "", 0.6)], rest, released)
 
 
 @pytest.fixture

@@ -14,7 +14,8 @@ def path(tmp_path: Path) -> str:
 
 def test_the_second_is_refused_with_the_process_that_has_it(path: str) -> None:
     held = Lock(path, "the chip")
-    with pytest.raises(DeviceError, match=f"^the chip is driven by process {os.getpid()} already; stop it"):
+    words = f"the chip is driven by process {os.getpid()} already; stop it first"
+    with pytest.raises(DeviceError, match=rf"^{words} \(Ctrl-C where it runs, or kill {os.getpid()}\)$"):
         Lock(path, "the chip")
     held.release()
 

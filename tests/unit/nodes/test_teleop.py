@@ -629,3 +629,13 @@ def test_what_was_in_the_way_is_said_no_more_once_the_robot_drives(desk: Desk) -
     desk.hear_state("driving")
     desk.tick()
     assert desk.views[-1].note == ""
+
+
+def test_the_advice_for_somebody_else_who_is_refused_is_not_for_who_drives(desk: Desk) -> None:
+    desk.hear_log("keyboard 7 is refused: it is too old; look at the link")
+    desk.hear_log("the chip was silent; look at its wires", name="watchdog")
+    desk.tick()
+    assert desk.views[-1].note == "watchdog: the chip was silent; look at its wires"
+    desk.hear_log("keyboard 7 is refused: it is too old; look at the link")
+    desk.tick()
+    assert desk.views[-1].note == "actuator: keyboard 7 is refused: it is too old"

@@ -3,11 +3,12 @@
 from collections.abc import Callable
 from functools import partial
 
+from zteleop.bridges.web.company import Company
 from zteleop.bridges.web.echo import Echo
 from zteleop.bridges.web.slots import Frame, Slots
 from zteleop.bridges.web.watching import Watching
 from zteleop.bridges.web.wheel import Wheel
-from zteleop.bridges.web.words import Held, Hello, Note, Said, Seen, Watch, Wish, text
+from zteleop.bridges.web.words import Held, Hello, Look, Note, Said, Seen, Watch, Wish, text
 from zteleop.bridges.web.words import Wheel as WheelTold
 from zteleop.bus import clock
 from zteleop.bus.lane.call import Call
@@ -30,6 +31,7 @@ class Cockpit:
         node.membership.echo = lambda heard: Echo(heard, lambda: self._wheel.echo)
         self._teleop = Teleop(node, self._wheel, SOURCE, vehicle, self._show, lane)
         self._watching = Watching(node)
+        self._company = Company(node)
         self._pages: dict[str, Slots] = {}
         self._told: tuple[Frame, Frame] = ("", "")
         """of the wheel, and of what is seen, the newest"""
@@ -64,6 +66,7 @@ class Cockpit:
     def _leave(self, page: str) -> None:
         self._pages.pop(page, None)
         self._watching.forget(page)
+        self._company.forget(page)
         self._wheel.leave(page, clock.now())
         self._teleop.obey()
         self._tell_wheel()
@@ -82,6 +85,8 @@ class Cockpit:
                 self._tell_wheel()
         elif isinstance(said, Watch):
             self._watching.watch(page, slots, said.topics)
+        elif isinstance(said, Look):
+            self._company.look(page, slots, said.graph)
         else:
             self._wish(page, slots, said)
 

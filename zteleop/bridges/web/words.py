@@ -45,7 +45,13 @@ class Watch(Struct, tag="watch", tag_field="is", frozen=True, forbid_unknown_fie
     topics: Topics
 
 
-Said = Held | Wish | Watch
+class Look(Struct, tag="look", tag_field="is", frozen=True, forbid_unknown_fields=True):
+    """Whether a page shows the graph of nodes and topics, and wants to be told of it."""
+
+    graph: bool
+
+
+Said = Held | Wish | Watch | Look
 
 
 class Hello(Struct, tag="hello", tag_field="is", frozen=True):
@@ -94,6 +100,23 @@ class Note(Struct, tag="note", tag_field="is", frozen=True):
     alarm: bool = False
 
 
+class Topic(Struct, frozen=True):
+    """A topic, by the name that a page watches it by."""
+
+    name: str
+    types: list[str]
+    said_by: list[str]
+    """nodes, by a name for each process"""
+    heard_by: list[str]
+    hz: float
+
+
+class Graph(Struct, tag="graph", tag_field="is", frozen=True):
+    """Who says what to whom, and how often it was said lately."""
+
+    topics: list[Topic]
+
+
 _decoder = msgspec.json.Decoder(Said)
 _encoder = msgspec.json.Encoder()
 
@@ -108,6 +131,6 @@ def read(frame: str | bytes) -> Said:
         raise MessageError(f"expected what a page of this server says, found another: {error}") from None
 
 
-def text(word: Hello | Heard | Wheel | Seen | Note) -> str:
+def text(word: Hello | Heard | Wheel | Seen | Note | Graph) -> str:
     """Return what a server says, as it is sent."""
     return _encoder.encode(word).decode()

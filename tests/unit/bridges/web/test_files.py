@@ -1,4 +1,6 @@
 import re
+import tomllib
+from hashlib import sha256
 
 import pytest
 
@@ -36,3 +38,14 @@ def test_nothing_that_its_rules_forbid_stands_in_the_page() -> None:
 
 def test_it_is_light() -> None:
     assert sum(len(file.body) for path, file in load().items() if path != "/") <= 150_000
+
+
+def test_what_others_wrote_is_as_they_published_it_and_says_under_which_licence() -> None:
+    folder = FOLDER / "vendor"
+    vendored = tomllib.loads((folder / "vendor.toml").read_text())
+    sums = {name: digest for one in vendored.values() for name, digest in one["sha256"].items()}
+    found = {path.name: sha256(path.read_bytes()).hexdigest() for path in folder.iterdir()}
+    assert found.pop("vendor.toml")
+    assert found == sums
+    for name, one in vendored.items():
+        assert one["licence"] in (folder / f"{name}.LICENSE").read_text()

@@ -59,10 +59,7 @@ export class Bus {
 
   /** @param {Word} word */
   take(word) {
-    if (word.is === "heard" && word.topic === "beat") {
-      this.beat = word.message;
-      return;
-    }
+    if (word.is === "heard" && word.topic === "beat") this.beat = word.message;
     this.hear(word);
   }
 

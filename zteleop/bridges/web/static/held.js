@@ -38,7 +38,7 @@ export class Held {
   press(event) {
     const target = /** @type {HTMLElement | null} */ (event.target);
     if (!(event.code in KEYS) || event.ctrlKey || event.altKey || event.metaKey) return;
-    if (target && target.closest("input, select, textarea")) return;
+    if (target && target.closest("input:not([type=checkbox]), select, textarea")) return;
     event.preventDefault();
     if (event.repeat) return; // a key that was held in another window begins nothing here
     this.keys.add(event.code);

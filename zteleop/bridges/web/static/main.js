@@ -3,8 +3,12 @@
 
 import { Bus } from "./bus.js";
 import { Eye } from "./eye.js";
+import { Graph } from "./graph.js";
 import { Held, touch } from "./held.js";
+import { Plot, save } from "./plot.js";
+import { Rooms } from "./rooms.js";
 import { Top } from "./top.js";
+import { Topics } from "./topics.js";
 
 const TOPICS = ["drive_status", "vehicle", "odom", "scene", "battery_state", "watchdog", "camera/image/compressed"];
 const SILENT = 500; // ms without a status after which it is not so any more
@@ -40,6 +44,24 @@ const known = { you: "", holder: "", obeyed: false, refused: "", vehicle: /** @t
 const eye = new Eye(at("eye"), (words) => show("camera", words));
 const bus = new Bus(token, () => stick(), hear, (picture) => eye.see(picture), connected);
 bus.topics.push(...TOPICS);
+const plot = new Plot(at("plot-picture"), at("plot-lines"), at("plot-pause"), watch);
+const topics = new Topics(at("topics-list"), at("topics-echo"), plot, watch);
+const graph = new Graph(/** @type {any} */ (at("graph")), (topic) => {
+  rooms.enter("topics");
+  topics.choose(topic);
+});
+const rooms = new Rooms(at("rooms"), look);
+
+/** Hear what is shown: always what the page is about, and what somebody has picked. */
+function watch() {
+  bus.watch([...TOPICS, ...plot.topics, topics.chosen].filter(Boolean));
+  topics.tick();
+}
+
+/** Be told of nodes and topics for as long as a room shows them. */
+function look() {
+  bus.say({ is: "look", graph: at("room-top").hidden });
+}
 
 /** @returns {import("./bus.js").Stick} */
 function stick() {
@@ -71,7 +93,8 @@ function connected(open) {
   known.heard = 0;
   known.met = known.met || open;
   const why = known.met ? "is zteleop web still running?" : "open the address that zteleop web has printed last";
-  if (!open) tell("away", "not connected", `looking for the server: ${why}`);
+  if (open) look();
+  else tell("away", "not connected", `looking for the server: ${why}`);
 }
 
 /**
@@ -96,6 +119,10 @@ function hear(word) {
     case "heard":
       heard(word.topic, word.message);
       break;
+    case "graph":
+      topics.tell(word.topics);
+      graph.tell(word.topics);
+      break;
     case "wheel":
       known.holder = word.holder;
       wheel(word.pages);
@@ -116,6 +143,8 @@ function hear(word) {
  * @param {any} message
  */
 function heard(topic, message) {
+  plot.hear(topic, message);
+  topics.hear(topic, message);
   if (topic === "odom") {
     view.move(message);
     show("moving", twisted(message.twist.twist));
@@ -216,6 +245,7 @@ at("stop").addEventListener("click", () => bus.wish("stop"));
 at("release").addEventListener("click", () => bus.wish("release"));
 at("take").addEventListener("click", () => bus.wish("take"));
 at("hand-over").addEventListener("click", () => bus.wish("hand over"));
+at("plot-save").addEventListener("click", () => save("zteleop.csv", plot.csv()));
 touch(at("stick"), held);
 setInterval(() => {
   if (known.heard && performance.now() - known.heard > SILENT) {
