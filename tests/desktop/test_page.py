@@ -32,6 +32,7 @@ KEYS = """kinds => {
     const about = { code: "ArrowUp", bubbles: true };
     for (const kind of kinds) document.body.dispatchEvent(new KeyboardEvent(kind, about));
 }"""
+SLIDE = "(slider, value) => { slider.value = value; slider.dispatchEvent(new Event('change')); }"
 SIZES = {"phone": (390, 844), "tablet": (820, 1180), "desktop": (1440, 900)}
 expect.set_options(timeout=WITHIN)
 
@@ -234,6 +235,26 @@ def test_what_is_said_on_the_bus_is_shown_as_it_comes_and_drawn_as_lines(
         page.locator("#plot-lines button", has_text="\u00d7").click()
         expect(page.locator("#plot-picture")).to_be_hidden()
         expect(page.get_by_label("twist.twist.linear.x", exact=True)).not_to_be_checked()
+
+
+def test_a_parameter_is_changed_by_a_slider_and_the_robot_has_the_last_word(
+    rig: Rig, browser: Browser, server: Process
+) -> None:
+    with opened(browser, server) as page, opened(browser, server) as other:
+        for one in (page, other):
+            one.locator("#tab-parameters").click()
+        speed, shown = (one.get_by_label("limits.speed", exact=False).first for one in (page, other))
+        expect(speed).to_be_visible()
+        most = speed.evaluate("slider => slider.value")
+        speed.evaluate(SLIDE, "0.5")
+        expect(shown).to_have_value("0.5")
+        page.keyboard.down("KeyW")
+        drives(rig)
+        expect(page.locator("#allowed")).to_contain_text("at most 0.50 m/s")
+        page.keyboard.up("KeyW")
+        rests(rig)
+        speed.evaluate(SLIDE, most)
+        expect(shown).to_have_value(most)
 
 
 def test_a_picture_that_is_paused_stays(rig: Rig, browser: Browser, server: Process) -> None:

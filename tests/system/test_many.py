@@ -63,7 +63,8 @@ def test_a_second_actuator_of_one_chip_says_who_has_it_and_ends(rig: Rig) -> Non
     second = rig.run("actuator", "--robot", "another", "--no-multicast-scouting")
     assert second.ends() == 1
     (line,) = second.lines
-    assert re.search(rf"the simulated chip {rig.chip} is driven by process \d+ already; stop it first$", line)
+    words = rf"the simulated chip {rig.chip} is driven by process (\d+) already; stop it first \(.*kill \1\)$"
+    assert re.search(words, line)
     assert rig.ticks == NEUTRAL
 
 

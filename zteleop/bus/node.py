@@ -85,6 +85,7 @@ class Node:
 
     def close(self) -> None:
         """Let go of every robot and leave the bus: others see this node go, and its threads end."""
+        self._waits_for_spin = ""
         try:
             for commands in self._commands:
                 commands.leave(tell_brief=not self.membership.has_spun)

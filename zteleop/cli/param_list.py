@@ -4,10 +4,10 @@ from collections.abc import Sequence
 
 from zteleop.bus import presence
 from zteleop.bus.escape import printable
+from zteleop.bus.node_parameters import NodeParameters
 from zteleop.bus.session import open_session
 from zteleop.cli import _options
 from zteleop.cli._graph import find_node
-from zteleop.cli._params import NodeParameters
 from zteleop.errors import BusError
 
 EXAMPLES = (

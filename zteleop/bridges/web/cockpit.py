@@ -6,9 +6,10 @@ from functools import partial
 from zteleop.bridges.web.company import Company
 from zteleop.bridges.web.echo import Echo
 from zteleop.bridges.web.slots import Frame, Slots
+from zteleop.bridges.web.tuning import Tuning
 from zteleop.bridges.web.watching import Watching
 from zteleop.bridges.web.wheel import Wheel
-from zteleop.bridges.web.words import Held, Hello, Look, Note, Said, Seen, Watch, Wish, text
+from zteleop.bridges.web.words import Held, Hello, Look, Note, Said, Seen, Setting, Watch, Wish, text
 from zteleop.bridges.web.words import Wheel as WheelTold
 from zteleop.bus import clock
 from zteleop.bus.lane.call import Call
@@ -32,6 +33,7 @@ class Cockpit:
         self._teleop = Teleop(node, self._wheel, SOURCE, vehicle, self._show, lane)
         self._watching = Watching(node)
         self._company = Company(node)
+        self._tuning = Tuning(node)
         self._pages: dict[str, Slots] = {}
         self._told: tuple[Frame, Frame] = ("", "")
         """of the wheel, and of what is seen, the newest"""
@@ -67,6 +69,7 @@ class Cockpit:
         self._pages.pop(page, None)
         self._watching.forget(page)
         self._company.forget(page)
+        self._tuning.forget(page)
         self._wheel.leave(page, clock.now())
         self._teleop.obey()
         self._tell_wheel()
@@ -87,6 +90,9 @@ class Cockpit:
             self._watching.watch(page, slots, said.topics)
         elif isinstance(said, Look):
             self._company.look(page, slots, said.graph)
+            self._tuning.look(page, slots, said.parameters)
+        elif isinstance(said, Setting):
+            self._tuning.set(slots, said)
         else:
             self._wish(page, slots, said)
 

@@ -3,7 +3,7 @@
 Pictures alone are bytes: the time of day in s as a big-endian double, then a JPEG.
 """
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import msgspec
 from msgspec import Meta, Raw, Struct
@@ -46,12 +46,21 @@ class Watch(Struct, tag="watch", tag_field="is", frozen=True, forbid_unknown_fie
 
 
 class Look(Struct, tag="look", tag_field="is", frozen=True, forbid_unknown_fields=True):
-    """Whether a page shows the graph of nodes and topics, and wants to be told of it."""
+    """What a page shows, and wants to be told of: the graph of nodes and topics, the nodes' parameters."""
 
     graph: bool
+    parameters: bool
 
 
-Said = Held | Wish | Watch | Look
+class Setting(Struct, tag="set", tag_field="is", frozen=True, forbid_unknown_fields=True):
+    """Another value for a parameter; the node that has it says whether it may be."""
+
+    node: Words
+    name: Words
+    value: bool | int | float | Words
+
+
+Said = Held | Wish | Watch | Look | Setting
 
 
 class Hello(Struct, tag="hello", tag_field="is", frozen=True):
@@ -117,6 +126,27 @@ class Graph(Struct, tag="graph", tag_field="is", frozen=True):
     topics: list[Topic]
 
 
+class Tuned(Struct, frozen=True):
+    """A parameter, and what it may be."""
+
+    node: str
+    name: str
+    type: str
+    """as `ros2 param` calls it"""
+    value: Any
+    says: str
+    least: float | None
+    most: float | None
+    choices: list[str]
+    read_only: bool
+
+
+class Parameters(Struct, tag="parameters", tag_field="is", frozen=True):
+    """Those of all nodes of the robot."""
+
+    parameters: list[Tuned]
+
+
 _decoder = msgspec.json.Decoder(Said)
 _encoder = msgspec.json.Encoder()
 
@@ -131,6 +161,6 @@ def read(frame: str | bytes) -> Said:
         raise MessageError(f"expected what a page of this server says, found another: {error}") from None
 
 
-def text(word: Hello | Heard | Wheel | Seen | Note | Graph) -> str:
+def text(word: Hello | Heard | Wheel | Seen | Note | Graph | Parameters) -> str:
     """Return what a server says, as it is sent."""
     return _encoder.encode(word).decode()

@@ -36,9 +36,7 @@ export class Held {
 
   /** @param {KeyboardEvent} event */
   press(event) {
-    const target = /** @type {HTMLElement | null} */ (event.target);
-    if (!(event.code in KEYS) || event.ctrlKey || event.altKey || event.metaKey) return;
-    if (target && target.closest("input:not([type=checkbox]), select, textarea")) return;
+    if (!(event.code in KEYS) || event.ctrlKey || event.altKey || event.metaKey || typing(event)) return;
     event.preventDefault();
     if (event.repeat) return; // a key that was held in another window begins nothing here
     this.keys.add(event.code);
@@ -65,6 +63,17 @@ export class Held {
     }
     return padded(navigator.getGamepads ? navigator.getGamepads() : []) || { drive: 0, turn: 0, deadman: false };
   }
+}
+
+/**
+ * @param {KeyboardEvent} event
+ * @returns {boolean} whether whatever has the focus takes this key itself: a slider the arrows, a switch none of these
+ */
+function typing(event) {
+  const target = /** @type {HTMLElement | null} */ (event.target);
+  if (!target || !target.closest("input, select, textarea")) return false;
+  if (target.matches("[type=checkbox]")) return false;
+  return !target.matches("[type=range]") || event.code.startsWith("Arrow");
 }
 
 /**

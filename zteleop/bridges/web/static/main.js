@@ -5,6 +5,7 @@ import { Bus } from "./bus.js";
 import { Eye } from "./eye.js";
 import { Graph } from "./graph.js";
 import { Held, touch } from "./held.js";
+import { Parameters } from "./parameters.js";
 import { Plot, save } from "./plot.js";
 import { Rooms } from "./rooms.js";
 import { Top } from "./top.js";
@@ -50,6 +51,7 @@ const graph = new Graph(/** @type {any} */ (at("graph")), (topic) => {
   rooms.enter("topics");
   topics.choose(topic);
 });
+const parameters = new Parameters(at("room-parameters"), (node, name, value) => bus.say({ is: "set", node, name, value }));
 const rooms = new Rooms(at("rooms"), look);
 
 /** Hear what is shown: always what the page is about, and what somebody has picked. */
@@ -58,9 +60,10 @@ function watch() {
   topics.tick();
 }
 
-/** Be told of nodes and topics for as long as a room shows them. */
+/** Be told of nodes and topics, and of parameters, for as long as a room shows them. */
 function look() {
-  bus.say({ is: "look", graph: at("room-top").hidden });
+  const shown = (/** @type {string[]} */ ...names) => names.some((name) => !at(`room-${name}`).hidden);
+  bus.say({ is: "look", graph: shown("topics", "graph"), parameters: shown("parameters") });
 }
 
 /** @returns {import("./bus.js").Stick} */
@@ -122,6 +125,9 @@ function hear(word) {
     case "graph":
       topics.tell(word.topics);
       graph.tell(word.topics);
+      break;
+    case "parameters":
+      parameters.tell(word.parameters);
       break;
     case "wheel":
       known.holder = word.holder;
