@@ -6,10 +6,11 @@ import shutil
 import signal
 import subprocess
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager
 from pathlib import Path
 
 import pytest
+from desk import CLASS, QUIET, Desk, screen, sits
 from processes import ZTELEOP, descendants
 from rig import NEUTRAL, Rig, every, free_port, until
 
@@ -18,7 +19,6 @@ MISSING = [program for program in NEEDS if not shutil.which(program)]
 pytestmark = pytest.mark.skipif(
     bool(MISSING), reason=f"not here: {', '.join(MISSING)} (Debian: xvfb kitty xdotool openssh-server)"
 )
-QUIET = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
 PLAIN = ["--config", "NONE", "-o", "update_check_interval=0", "-o", "confirm_os_window_close=0"]
 
 
@@ -31,79 +31,14 @@ def rig(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Rig]:
 
 @pytest.fixture(scope="module")
 def display() -> Iterator[str]:
-    """A screen that nobody sees."""
-    reading, writing = os.pipe()
-    command = ["Xvfb", "-displayfd", str(writing), "-screen", "0", "1024x768x24", "-nolisten", "tcp"]
-    server = subprocess.Popen([*command, "+extension", "GLX"], pass_fds=[writing], **QUIET)
-    os.close(writing)
-    with os.fdopen(reading) as number:
-        yield f":{number.readline().strip()}"
-    server.terminate()
-    server.wait()
+    with screen() as name:
+        yield name
 
 
-class Desk:
-    """A kitty window in which a keyboard drives, and fingers on the keys."""
-
-    def __init__(self, rig: Rig, display: str, command: list[str]) -> None:
-        self._rig = rig
-        self._environment = {
-            **rig.environment,
-            **{"DISPLAY": display, "LIBGL_ALWAYS_SOFTWARE": "1", "LC_ALL": "C.UTF-8"},
-            "KITTY_CACHE_DIRECTORY": str(rig.folder),
-        }
-        self.kitty = subprocess.Popen(
-            ["kitty", *PLAIN, "--class", "desk", *command], env=self._environment, cwd=rig.folder, **QUIET
-        )
-
-    def focus(self) -> None:
-        """Wait for the window; one that is not on the screen yet cannot have the focus."""
-        self._do("search", "--sync", "--onlyvisible", "--class", "desk", "windowfocus", "--sync")
-
-    def _do(self, *words: str) -> None:
-        subprocess.run(["xdotool", *words], env=self._environment, check=True, timeout=60, **QUIET)
-
-    def hold(self, *keys: str) -> None:
-        self._do("keydown", *keys)
-
-    def let_go(self, *keys: str) -> None:
-        self._do("keyup", *keys)
-
-    def drives_at_last(self, key: str) -> None:
-        """Hold a key until the keyboard is there and the wheels turn; what came too early is let go first."""
-
-        def turns() -> bool:
-            self.let_go(key)
-            self.hold(key)
-            return any(self._rig.ticks[1] != NEUTRAL[1] for _ in every(0.05, 20))
-
-        until(turns, "a keyboard that drives")
-
-    def look_elsewhere(self) -> None:
-        """Take the focus away from the window, as another one does."""
-        self._do("search", "--maxdepth", "0", ".*", "windowfocus")
-
-    def close(self) -> None:
-        left = descendants(self.kitty.pid)
-        self.kitty.terminate()
-        self.kitty.wait()
-        until(
-            lambda: not any(Path(f"/proc/{pid}").exists() for pid in left),
-            "the end of what ran in the window",
-        )
-
-
-@contextmanager
-def desk(rig: Rig, display: str, command: list[str]) -> Iterator[Desk]:
-    desk = Desk(rig, display, command)
-    try:
-        desk.focus()
-        yield desk
-    finally:
-        for key in ("Up", "Left", "Right"):
-            desk.let_go(key)
-        desk.close()
-        until(lambda: rig.ticks == NEUTRAL, "rest")
+def desk(rig: Rig, display: str, command: list[str]) -> AbstractContextManager[Desk]:
+    """Run a command in a kitty."""
+    about = {"KITTY_CACHE_DIRECTORY": str(rig.folder)}
+    return sits(rig, display, ["kitty", *PLAIN, "--class", CLASS, *command], about)
 
 
 def keyboard(rig: Rig) -> list[str]:
@@ -175,7 +110,7 @@ def test_it_is_the_same_through_ssh_and_a_stalled_link_lets_go(
         here.drives_at_last("Up")
         drives_and_steers(rig, here)
         here.drives_at_last("Up")
-        client = next(pid for pid in descendants(here.kitty.pid) if command_line(pid).startswith("ssh"))
+        client = next(pid for pid in descendants(here.program.pid) if command_line(pid).startswith("ssh"))
         os.kill(client, signal.SIGSTOP)
         until(lambda: rig.ticks == NEUTRAL, "rest")
         os.kill(client, signal.SIGCONT)

@@ -6,6 +6,7 @@ import shutil
 import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Any
 
 import pytest
 from playwright.sync_api import Browser, Page, expect, sync_playwright
@@ -64,12 +65,15 @@ def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
 
 
 @contextmanager
-def opened(browser: Browser, server: Process, size: str = "desktop") -> Iterator[Page]:
+def opened(
+    browser: Browser, server: Process, size: str = "desktop", script: str = "", **about: Any
+) -> Iterator[Page]:
     """Open the address that the server has printed; nothing may be wrong in the page until it is closed."""
     found = re.search(r"http://\S+", server.text)
     assert found
     wide, high = SIZES[size]
-    context = browser.new_context(viewport={"width": wide, "height": high})
+    context = browser.new_context(viewport={"width": wide, "height": high}, **about)
+    context.add_init_script(script)
     context.set_default_timeout(WITHIN)
     page, wrong = context.new_page(), list[str]()
     page.on("pageerror", lambda error: wrong.append(str(error)))
@@ -289,3 +293,47 @@ def test_nodes_and_topics_are_a_drawing_in_which_a_topic_can_be_chosen(
         expect(page.locator("#room-topics")).to_be_visible()
         expect(page.locator("#topics-echo")).to_contain_text("ackermann")
         expect(page.locator("#graph")).to_be_hidden()
+
+
+PHONE = """() => {
+    window.felt = [];
+    navigator.vibrate = (times) => window.felt.push(times);
+    window.awake = 0;
+    const wakeLock = { request: async () => { window.awake += 1; return new EventTarget(); } };
+    Object.defineProperty(navigator, "wakeLock", { value: wakeLock });
+}"""
+"""what a phone has, and this browser has not"""
+TILT = """([beta, gamma]) => {
+    window.dispatchEvent(new DeviceOrientationEvent("deviceorientation", { beta, gamma }));
+}"""
+
+
+def test_a_phone_drives_by_being_tilted_stays_awake_and_is_felt_when_driving_ends(
+    rig: Rig, browser: Browser, server: Process
+) -> None:
+    with opened(browser, server, "phone", has_touch=True, is_mobile=True, script=f"({PHONE})()") as page:
+        button = page.locator("#tilt")
+        expect(button).to_be_visible()
+        about = {"pointerId": 1, "bubbles": True}
+        button.evaluate("button => button.setPointerCapture = () => {}")  # which only a real finger has
+        button.dispatch_event("pointerdown", about)
+        page.evaluate(TILT, [40, 0])
+        assert rig.ticks == tuple(NEUTRAL), "as it is held at first, it rests"
+        page.evaluate(TILT, [10, -20])
+        drives(rig)
+        until(lambda: (rig.ticks[STEERING] or 0) > NEUTRAL[STEERING], "it steers to the left")
+        assert page.evaluate("window.awake") == 1
+        assert page.evaluate("window.felt") == []
+        page.locator("#stop").dispatch_event("click")
+        rests(rig)
+        until(lambda: page.evaluate("window.felt.length") == 1, "it is felt")
+        button.dispatch_event("pointerup", about)
+        page.locator("#release").click()
+        expect(page.locator("#state")).to_have_text("idle")
+        page.evaluate(TILT, [-40, 0])
+        rests(rig)
+
+
+def test_a_computer_offers_no_tilting(browser: Browser, server: Process) -> None:
+    with opened(browser, server) as page:
+        expect(page.locator("#tilt")).to_be_hidden()

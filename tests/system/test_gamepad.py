@@ -175,6 +175,26 @@ def test_a_button_and_a_key_stop_the_robot_and_a_button_that_is_held_ends_the_st
         pad.move((START, 0))
 
 
+def test_without_a_terminal_a_pad_drives_and_stops_as_well_and_says_so(rig: Rig, pad: Pad) -> None:
+    rig.environment.update(pad.environment)
+    service = rig.join("gamepad")
+    service.says("waiting for a gamepad: plug one in, or switch it on  ->  idle: ")
+    pad.move(("plug", "Pad"))
+    service.says("Pad: hold LB to drive, hold RB for full speed")
+    drives(rig, pad)
+    service.says("  ->  driving: gamepad ")
+    pad.move((B, 1), (B, 0))
+    until(lambda: rig.ticks == NEUTRAL, "rest")
+    service.says("  ->  stopped: ")
+    pad.move((LB, 0), (FORWARD, 0.0), (START, 1))
+    until(lambda: "  ->  idle: " in service.text.rpartition("  ->  stopped: ")[2], "the end of the stop")
+    pad.move((START, 0))
+    drives(rig, pad)
+    service.signal(signal.SIGTERM)
+    service.ends()
+    until(lambda: rig.ticks == NEUTRAL, "rest")
+
+
 def test_a_pad_whose_program_is_killed_stops_the_robot(rig: Rig, pad: Pad) -> None:
     terminal = rig.terminal("gamepad", *rig.bus_options(), environment=pad.environment)
     pad.move(("plug", "Pad"))

@@ -2,16 +2,20 @@
 
 import json
 import re
+import signal
+import ssl
+import subprocess
 import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from pathlib import Path
 from typing import Any
 
 import pytest
 from processes import Process
 from rig import NEUTRAL, Rig, until
-from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.exceptions import ConnectionClosed, InvalidMessage, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 
 THROTTLE = 1
@@ -176,3 +180,52 @@ def test_nonsense_is_answered_and_too_much_of_it_ends_the_connection(server: Pro
         until(lambda: ann.connection.close_code, "the end")
         assert ann.connection.close_code == 1008
         ann.closed = True
+
+
+@pytest.fixture
+def pair(tmp_path: Path) -> tuple[str, str]:
+    certificate, key = str(tmp_path / "car.pem"), str(tmp_path / "car.key")
+    about = "req -x509 -newkey ec -pkeyopt ec_paramgen_curve:P-256 -nodes -days 2 -subj /CN=car"
+    alias = ["-addext", "subjectAltName=IP:127.0.0.1"]
+    command = ["openssl", *about.split(), *alias, "-keyout", key, "-out", certificate]
+    subprocess.run(command, check=True, capture_output=True)
+    return certificate, key
+
+
+def test_a_page_is_served_in_every_network_and_by_tls(rig: Rig, pair: tuple[str, str]) -> None:
+    certificate, key = pair
+    where = ("--port", "0", "--serve-at", "0.0.0.0")
+    server = rig.join("web", *where, "--tls-cert", certificate, "--tls-key", key)
+    server.says("open https://")
+    found = re.search(r"https://(\S+):(\d+)/#t=(\S+)", server.text)
+    assert found
+    own, port, token = found.groups()
+    trust = ssl.create_default_context(cafile=certificate)
+    trust.check_hostname = False  # its own address is whatever network this machine is in
+    protocols: Any = ["zteleop.v1", f"token.{token}"]
+    for host in {"127.0.0.1", own}:
+        place = f"{host}:{port}"
+        with connect(
+            f"wss://{place}/bus", subprotocols=protocols, origin=f"https://{place}", ssl=trust
+        ) as page:  # type: ignore[arg-type]
+            assert json.loads(page.recv())["is"] == "hello"
+    with pytest.raises(InvalidMessage), connect(f"ws://127.0.0.1:{port}/bus", subprotocols=protocols):
+        pass
+    assert "read the address along" not in server.text
+    server.signal(signal.SIGINT)
+    server.ends()
+
+
+def test_a_page_that_anybody_can_read_along_says_so(rig: Rig) -> None:
+    server = rig.join("web", "--port", "0", "--serve-at", "0.0.0.0")
+    server.says("whoever shares this network can read the address along; --tls-cert keeps it secret")
+    server.signal(signal.SIGINT)
+    server.ends()
+
+
+def test_what_is_no_certificate_is_told_before_anything_is_served(rig: Rig, tmp_path: Path) -> None:
+    server = rig.join("web", "--port", "0", "--tls-cert", str(tmp_path / "none.pem"))
+    assert server.ends() == 1
+    assert "expected" in server.text
+    assert "No such file or directory; docs/phone.md makes a pair" in server.text.replace("\n", " ")
+    assert "open http" not in server.text

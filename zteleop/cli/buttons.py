@@ -1,6 +1,5 @@
 import argparse
 import sys
-from collections.abc import Callable
 
 from zteleop.bus import clock, presence
 from zteleop.bus.escape import printable
@@ -8,10 +7,10 @@ from zteleop.bus.names import resolve
 from zteleop.bus.node import Node
 from zteleop.cli import _company, _options
 from zteleop.cli._driving import find_vehicle
+from zteleop.cli._telling import teller
 from zteleop.inputs.buttons import Buttons
 from zteleop.messages import InterfaceButtons
 from zteleop.nodes.teleop import Teleop
-from zteleop.screen.view import View
 
 TELL_AFTER = 1.0
 """s until it says who tells of no button"""
@@ -34,8 +33,9 @@ def run(arguments: argparse.Namespace) -> None:
         node.subscription(
             "interface_buttons", InterfaceButtons, lambda heard: buttons.hear(heard.message, heard.at)
         )
+        tell = teller(lambda: "; ".join(buttons.about))
         node.membership.loop.alarm(lambda: _miss(node, buttons)).ring_at(clock.now() + TELL_AFTER)
-        Teleop(node, buttons, "buttons", find_vehicle(node, settings), teller(buttons)).run()
+        Teleop(node, buttons, "buttons", find_vehicle(node, settings), tell).run()
 
 
 def _miss(node: Node, buttons: Buttons) -> None:
@@ -44,19 +44,3 @@ def _miss(node: Node, buttons: Buttons) -> None:
         name, session = resolve("interface_buttons", node.robot), node.membership.session
         words = _company.why_silent(name, presence.endpoints(session), session.unreached())
         print(printable(f"zteleop buttons: waits for {name}: {words}"), file=sys.stderr, flush=True)
-
-
-def teller(buttons: Buttons) -> Callable[[View], None]:
-    """Return what prints a line whenever a button, or what the robot makes of it, is another."""
-    shown = ""
-
-    def tell(view: View) -> None:
-        nonlocal shown
-        status = view.status
-        does = f"{status.state}: {view.refused or status.why}" if status else "no actuator is heard"
-        line = f"{'; '.join(buttons.about)}  ->  {does.partition(' for ')[0]}"
-        if line != shown:
-            shown = line
-            print(printable(line), flush=True)
-
-    return tell

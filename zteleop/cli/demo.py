@@ -95,7 +95,7 @@ def run(arguments: argparse.Namespace) -> int:
         await_robot(node, children, Path(log.name))
         if arguments.web:
             print(f"{HIDDEN}\n" * hidden, end="")
-            web.drive_from_page(node, Config(bus=bus), port=0)
+            web.drive_from_page(node, Config(bus=bus), web.Place(port=0))
             return 0
         if screen:
             trip = Trip()

@@ -3,14 +3,19 @@ import select
 import sys
 
 from zteleop.bus import clock
+from zteleop.bus.lane.call import Call
+from zteleop.bus.node import Node
 from zteleop.cli import _options
-from zteleop.cli._driving import drive_at_terminal
+from zteleop.cli._driving import drive_at_terminal, find_vehicle
+from zteleop.cli._telling import teller
+from zteleop.config import Config
 from zteleop.errors import DeviceError
 from zteleop.inputs.console import Console
 from zteleop.inputs.gamepad import Gamepad
 from zteleop.inputs.gamepad_learn import Lesson
 from zteleop.inputs.gamepad_map import USES, GamepadSettings, Pads
 from zteleop.inputs.keyboard import Keyboard
+from zteleop.nodes.teleop import Teleop
 from zteleop.screen.dashboard import Dashboard
 
 EXAMPLES = (
@@ -43,16 +48,27 @@ def run(arguments: argparse.Namespace) -> None:
     elif arguments.learn:
         learn(pads)
     else:
-        pad = Gamepad(pads, settings.gamepad, settings.speeds)
-        keyboard = Keyboard("hold", keymap="stop", keys={})
+        drive = _at_terminal if sys.stdin.isatty() else _alone
         with _options.join("gamepad", settings) as node:
-            known = Dashboard(
-                robot=node.robot or "",
-                drive="hold",
-                speeds=settings.speeds,
-                bound=keyboard.bound,
-            )
-            drive_at_terminal(node, settings, Console(pad, keyboard), "gamepad", known)
+            drive(node, settings, Gamepad(pads, settings.gamepad, settings.speeds))
+
+
+def _at_terminal(node: Node, settings: Config, pad: Gamepad) -> None:
+    """Drive with a screen, whose keys stop, release and quit."""
+    keyboard = Keyboard("hold", keymap="stop", keys={})
+    known = Dashboard(
+        robot=node.robot or "",
+        drive="hold",
+        speeds=settings.speeds,
+        bound=keyboard.bound,
+    )
+    drive_at_terminal(node, settings, Console(pad, keyboard), "gamepad", known)
+
+
+def _alone(node: Node, settings: Config, pad: Gamepad) -> None:
+    """Drive without a terminal, as a service does: what there is to know goes into its log."""
+    with pad, Call(settings.bus) as lane:
+        Teleop(node, pad, "gamepad", find_vehicle(node, settings), teller(lambda: pad.words), lane).run()
 
 
 def pads_of(name: str, which: str) -> Pads:

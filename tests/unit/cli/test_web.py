@@ -23,3 +23,8 @@ def test_without_websockets_it_says_what_to_install(
     assert _run.run_verb("web", "serve a page", []) == 1
     words = "zteleop web: a page needs websockets, which is not installed; say: "
     assert capsys.readouterr().err == f"{words}{install('web')}\n"
+
+
+def test_a_key_without_a_certificate_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert _run.run_verb("web", "serve a page", ["--tls-key", "car.key"]) == 1
+    assert "a key alone is no identity: say --tls-cert as well" in capsys.readouterr().err

@@ -7,6 +7,7 @@ was; and any name in the world can be made to lead here (DNS rebinding), which `
 import hmac
 import secrets
 from collections.abc import Iterable, Sequence
+from ipaddress import ip_address
 from urllib.parse import urlsplit
 
 PROTOCOL = "zteleop.v1"
@@ -23,11 +24,15 @@ def new_token() -> str:
 
 
 class Tickets:
-    """Looks at what a browser says before it is let in; `hosts` are other names that lead here."""
+    """Looks at what a browser says before it is let in; `hosts` are other names that lead here.
 
-    def __init__(self, token: str, hosts: Iterable[str] = ()) -> None:
+    Who listens in a network is reached by `addresses` too: no page elsewhere can make a number lead here.
+    """
+
+    def __init__(self, token: str, hosts: Iterable[str] = (), addresses: bool = False) -> None:
         self._token = token
         self._hosts = LOOPBACK | {host.lower() for host in hosts}
+        self._addresses = addresses
 
     def refusal(self, host: str, origin: str | None, protocols: Sequence[str]) -> str:
         """Return why a connection is refused, in a sentence; nothing for one that is welcome."""
@@ -44,7 +49,8 @@ class Tickets:
 
     def unknown_host(self, host: str) -> str:
         """Return why a name is refused that leads here; nothing for one that may."""
-        if name_of(host) in self._hosts:
+        name = name_of(host)
+        if name in self._hosts or (self._addresses and is_address(name)):
             return ""
         return f"{shown(host)} is no name of this server; where it is one, start it with --host {shown(host)}"
 
@@ -66,6 +72,15 @@ def name_of(host: str) -> str:
         return (urlsplit(f"//{host}").hostname or "").lower()
     except ValueError:
         return ""
+
+
+def is_address(name: str) -> bool:
+    """Say whether a name is a number of a machine, which nobody looks up."""
+    try:
+        ip_address(name)
+    except ValueError:
+        return False
+    return True
 
 
 def shown(text: str) -> str:

@@ -60,3 +60,14 @@ def test_a_stranger_does_not_decide_how_long_a_sentence_is(tickets: Tickets) -> 
 def test_each_token_is_another() -> None:
     assert len({new_token() for _ in range(100)}) == 100
     assert len(TOKEN) >= 22
+
+
+@pytest.mark.parametrize(
+    ("host", "let_in"), [("192.168.1.5:8765", True), ("[fe80::1]:8765", True), ("car.evil:8765", False)]
+)
+def test_who_listens_in_a_network_is_reached_by_its_numbers_and_by_no_other_name(
+    host: str, let_in: bool
+) -> None:
+    origin = f"http://{host}"
+    assert Tickets(TOKEN).refusal(host, origin, MINE)
+    assert bool(Tickets(TOKEN, addresses=True).refusal(host, origin, MINE)) is not let_in

@@ -6,8 +6,10 @@ import { Eye } from "./eye.js";
 import { Graph } from "./graph.js";
 import { Held, touch } from "./held.js";
 import { Parameters } from "./parameters.js";
+import { Phone } from "./phone.js";
 import { Plot, save } from "./plot.js";
 import { Rooms } from "./rooms.js";
+import { tilt } from "./tilt.js";
 import { Top } from "./top.js";
 import { Topics } from "./topics.js";
 
@@ -40,6 +42,7 @@ sessionStorage.setItem(KEY, token); // a page that is loaded anew keeps it; it s
 history.replaceState(null, "", location.pathname);
 
 const held = new Held(document, () => bus.sayHeld());
+const phone = new Phone();
 const view = new Top(at("top"));
 const known = { you: "", holder: "", obeyed: false, refused: "", vehicle: /** @type {any} */ (null), heard: 0, since: 0, met: false, x: 0, y: 0 };
 const eye = new Eye(at("eye"), (words) => show("camera", words));
@@ -69,6 +72,7 @@ function look() {
 /** @returns {import("./bus.js").Stick} */
 function stick() {
   const now = held.stick();
+  if (now.deadman) phone.stayAwake();
   at("stick").dataset.held = String(now.deadman && obeyed());
   knob(-now.turn, -now.drive);
   return { ...now, drive: now.drive * share("forward"), turn: now.turn * share("turning") };
@@ -106,6 +110,7 @@ function connected(open) {
  * @param {string} why
  */
 function tell(state, word, why) {
+  phone.feel(state, held.stick().deadman);
   at("state").dataset.state = state;
   show("state", word);
   show("why", why);
@@ -253,6 +258,7 @@ at("take").addEventListener("click", () => bus.wish("take"));
 at("hand-over").addEventListener("click", () => bus.wish("hand over"));
 at("plot-save").addEventListener("click", () => save("zteleop.csv", plot.csv()));
 touch(at("stick"), held);
+tilt(at("tilt"), held);
 setInterval(() => {
   if (known.heard && performance.now() - known.heard > SILENT) {
     known.heard = 0;

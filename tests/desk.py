@@ -1,0 +1,91 @@
+"""A screen that nobody sees, a window on it, and fingers on the keys."""
+
+import os
+import subprocess
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+
+from processes import descendants
+from rig import NEUTRAL, Rig, every, until
+
+QUIET = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+CORNER = ("1020", "760")
+"""of the screen, where no window is"""
+CLASS = "desk"
+"""what a program must call its window"""
+
+
+@contextmanager
+def screen() -> Iterator[str]:
+    """Yield the name of a display."""
+    reading, writing = os.pipe()
+    command = ["Xvfb", "-displayfd", str(writing), "-screen", "0", "1024x768x24", "-nolisten", "tcp"]
+    server = subprocess.Popen([*command, "+extension", "GLX"], pass_fds=[writing], **QUIET)
+    os.close(writing)
+    try:
+        with os.fdopen(reading) as number:
+            yield f":{number.readline().strip()}"
+    finally:
+        server.terminate()
+        server.wait()
+
+
+class Desk:
+    """A program's window in which somebody drives, and fingers on the keys."""
+
+    def __init__(self, rig: Rig, display: str, command: list[str], about: Mapping[str, str]) -> None:
+        self._rig = rig
+        surroundings = {"DISPLAY": display, "LIBGL_ALWAYS_SOFTWARE": "1", "LC_ALL": "C.UTF-8"}
+        self._environment = {**rig.environment, **surroundings, **about}
+        self.program = subprocess.Popen(command, env=self._environment, cwd=rig.folder, **QUIET)
+
+    def focus(self) -> None:
+        """Wait for the window; one that is not on the screen yet cannot have the focus."""
+        self._do("search", "--sync", "--onlyvisible", "--class", CLASS, "windowfocus", "--sync")
+
+    def _do(self, *words: str) -> None:
+        subprocess.run(["xdotool", *words], env=self._environment, check=True, timeout=60, **QUIET)
+
+    def hold(self, *keys: str) -> None:
+        self._do("keydown", *keys)
+
+    def let_go(self, *keys: str) -> None:
+        self._do("keyup", *keys)
+
+    def drives_at_last(self, key: str) -> None:
+        """Hold a key until the keyboard is there and the wheels turn; what came too early is let go first."""
+
+        def turns() -> bool:
+            self.let_go(key)
+            self.hold(key)
+            return any(self._rig.ticks[1] != NEUTRAL[1] for _ in every(0.05, 20))
+
+        until(turns, "a keyboard that drives")
+
+    def look_elsewhere(self) -> None:
+        """Take the focus away from the window, and the pointer, which would bring it keys as well."""
+        self._do("mousemove", *CORNER, "search", "--maxdepth", "0", ".*", "windowfocus")
+
+    def close(self) -> None:
+        left = descendants(self.program.pid)
+        self.program.terminate()
+        self.program.wait()
+        until(
+            lambda: not any(Path(f"/proc/{pid}").exists() for pid in left),
+            "the end of what ran in the window",
+        )
+
+
+@contextmanager
+def sits(rig: Rig, display: str, command: list[str], about: Mapping[str, str]) -> Iterator[Desk]:
+    """Sit down before a program until all is let go and the robot rests."""
+    desk = Desk(rig, display, command, about)
+    try:
+        desk.focus()
+        yield desk
+    finally:
+        for key in ("Up", "Left", "Right"):
+            desk.let_go(key)
+        desk.close()
+        until(lambda: rig.ticks == NEUTRAL, "rest")
