@@ -1,15 +1,16 @@
 """An operator whose device is a page: the same rules as for every other."""
 
 import json
+from collections.abc import Callable
 from itertools import count
 from typing import Any
 
 import pytest
-from unit.bus.fakes import put
+from unit.bus.fakes import Ring, put
 
 from zteleop.bridges.web.cockpit import Cockpit
 from zteleop.bridges.web.slots import Slots
-from zteleop.bridges.web.words import Held, Watch, Wish
+from zteleop.bridges.web.words import Held, Look, Watch, Wish
 from zteleop.messages import Beat, Vehicle
 from zteleop.testing import Clock, FakeNode
 
@@ -21,15 +22,23 @@ class Server:
 
     def __init__(self, node: FakeNode, clock: Clock, car: Vehicle) -> None:
         self.node, self.clock, self.seq = node, clock, count(1)
+        self.asked: list[str] = []
+        self.besides: list[Callable[[], float]] = []
         node.membership.session.overhear = self.subscribe
         node.membership.session.deliver = self.deliver
+        node.membership.session.watch_tokens = lambda selector, depth, history: Ring()
+        node.membership.session.tokens = lambda selector: self.asked.append(selector) or set()
+        node.membership.beside = self.besides.append
         self.heard: dict[str, Any] = {}
         node.hear_beat(vehicle=car)
         self.cockpit = Cockpit(node, car, "1.0")
         self.slots: dict[str, Slots] = {}
 
     def subscribe(self, key: str, depth: int) -> Any:
-        return type("Ring", (), {"key": key, "undeclare": lambda ring: self.heard.pop(key)})()
+        ring = Ring()
+        ring.key, ring.undeclare = key, lambda: self.heard.pop(key)  # type: ignore[attr-defined, method-assign]
+        self.heard[key] = print
+        return ring
 
     def deliver(self, inbox: Any, handler: Any, loop: Any) -> Any:
         self.heard[inbox.ring.key] = lambda sample: handler(inbox.read(sample))
@@ -143,3 +152,24 @@ def test_a_page_hears_what_it_watches_as_it_was_said_and_nothing_else(driven: Se
     assert heard == {"is": "heard", "topic": "odom", "type": "a/b", "message": {"x": 1.5}}
     driven.cockpit.hear("page 2", Watch([]))
     assert driven.heard == {}
+
+
+@pytest.mark.parametrize("leaves", [True, False])
+def test_the_bus_is_heard_and_nodes_are_asked_for_a_page_that_shows_it(server: Server, leaves: bool) -> None:
+    for page in ("page 1", "page 2"):
+        server.open(page)
+    server.cockpit.hear("page 1", Look(graph=True, parameters=True))
+    server.node.loop.live(1.1)
+    (beside,) = server.besides
+    beside()
+    assert {"graph", "parameters"} <= {word["is"] for word in server.told("page 1")}
+    assert not {"graph", "parameters"} & {word["is"] for word in server.told("page 2")}
+    if leaves:
+        server.cockpit.leave("page 1")
+    else:
+        server.cockpit.hear("page 1", Look(graph=False, parameters=False))
+    assert "robot/archangel/**" not in server.heard
+    server.asked.clear()
+    server.clock.pass_by(60.0)
+    beside()
+    assert server.asked == []

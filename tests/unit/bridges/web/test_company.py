@@ -119,3 +119,18 @@ def test_whoever_looks_no_longer_is_told_nothing(room: Room) -> None:
     room.look("page 1", looks=False)
     assert room.told("page 1") == []
     assert room.told("page 2")
+
+
+def test_what_is_taken_back_is_nothing_that_was_said(room: Room) -> None:
+    room.look()
+    room.session.rings[ALL].samples.append(put(b"", key="robot/archangel/odom", is_put=False))
+    assert room.told() == []
+
+
+def test_what_was_said_before_a_page_looked_again_does_not_count(room: Room) -> None:
+    room.look()
+    room.say("odom", 20)
+    assert room.told()
+    room.look(looks=False)
+    room.look()
+    assert room.told() == []

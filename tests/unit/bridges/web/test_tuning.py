@@ -53,6 +53,7 @@ class Room:
     def __init__(self, clock: Clock, actuator: Actuator) -> None:
         self.clock, self.actuator = clock, actuator
         self.looks: list[Callable[[], float]] = []
+        self.asks: list[int] = []
         node = FakeNode(clock=clock)
         node.membership.beside = self.looks.append  # type: ignore[attr-defined]
         self.tuning = Tuning(node)
@@ -75,9 +76,10 @@ class Room:
 def room(clock: Clock, monkeypatch: pytest.MonkeyPatch) -> Room:
     actuator = Actuator()
     monkeypatch.setattr(tuning, "NodeParameters", actuator.asked)
-    here = [SimpleNamespace(robot=robot, node="actuator") for robot in ("archangel", "abe")]
-    monkeypatch.setattr(tuning.presence, "with_parameters", lambda session: here)
-    return Room(clock, actuator)
+    here = [SimpleNamespace(robot="archangel", node="actuator"), SimpleNamespace(robot="abe", node="arm")]
+    room = Room(clock, actuator)
+    monkeypatch.setattr(tuning.presence, "with_parameters", lambda session: room.asks.append(1) or here)
+    return room
 
 
 def values(words: list[dict[str, Any]]) -> dict[str, Any]:
@@ -105,7 +107,7 @@ def test_nobody_is_asked_while_nobody_looks(room: Room) -> None:
     room.look()
     room.look(looks=False)
     assert room.told(seconds=60.0) == []
-    assert len(room.looks) == 1
+    assert (len(room.looks), room.asks) == (1, [])
 
 
 @pytest.mark.parametrize(
