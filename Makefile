@@ -2,6 +2,7 @@
 
 PYTHON ?= python3
 BIN := .venv/bin
+TYPES := --noEmit --checkJs --allowJs --strict --target es2022 --module es2022 --lib es2022,dom,dom.iterable
 
 .PHONY: demo test unit lint format schemas bench soak fuzz clean
 
@@ -31,6 +32,8 @@ lint: .venv/installed-dev
 	$(BIN)/ruff format --check
 	$(BIN)/mypy
 	$(BIN)/mypy examples/*.py
+	@if command -v tsc >/dev/null; then tsc $(TYPES) zteleop/bridges/web/static/*.js; \
+	else echo "not here: tsc (Debian: node-typescript); the types of the page are not checked"; fi
 
 format: .venv/installed-dev
 	$(BIN)/ruff check --fix

@@ -133,7 +133,7 @@ export class Top {
     pen.strokeStyle = ink;
     pen.fillStyle = plate;
     pen.beginPath();
-    if (steers) pen.roundRect(-0.3 * length, -width / 2, 1.6 * length, width, 0.2 * width);
+    if (steers) /** @type {any} */ (pen).roundRect(-0.3 * length, -width / 2, 1.6 * length, width, 0.2 * width);
     else pen.arc(0, 0, length / 2, 0, 2 * Math.PI);
     pen.fill();
     pen.stroke();
