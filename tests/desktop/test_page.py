@@ -261,6 +261,18 @@ def test_a_parameter_is_changed_by_a_slider_and_the_robot_has_the_last_word(
         expect(shown).to_have_value(most)
 
 
+def test_all_robots_are_a_table_with_who_operates_them(rig: Rig, browser: Browser, server: Process) -> None:
+    with opened(browser, server) as page:
+        page.locator("#tab-robots").click()
+        row = page.locator("#room-robots tbody tr")
+        expect(row).to_have_text(re.compile("^bench \\(this one\\)idlenobody"))
+        page.keyboard.down("KeyW")
+        expect(row).to_contain_text(re.compile(r"drivingweb \w{4}"))
+        page.keyboard.up("KeyW")
+        rests(rig)
+        expect(row).to_contain_text("idlenobody")
+
+
 def test_a_picture_that_is_paused_stays(rig: Rig, browser: Browser, server: Process) -> None:
     with opened(browser, server) as page:
         page.locator("#tab-topics").click()

@@ -5,6 +5,7 @@ from functools import partial
 
 from zteleop.bridges.web.company import Company
 from zteleop.bridges.web.echo import Echo
+from zteleop.bridges.web.robots import Fleet
 from zteleop.bridges.web.slots import Frame, Slots
 from zteleop.bridges.web.tuning import Tuning
 from zteleop.bridges.web.watching import Watching
@@ -34,6 +35,7 @@ class Cockpit:
         self._watching = Watching(node)
         self._company = Company(node)
         self._tuning = Tuning(node)
+        self._fleet = Fleet(node)
         self._pages: dict[str, Slots] = {}
         self._told: tuple[Frame, Frame] = ("", "")
         """of the wheel, and of what is seen, the newest"""
@@ -70,6 +72,7 @@ class Cockpit:
         self._watching.forget(page)
         self._company.forget(page)
         self._tuning.forget(page)
+        self._fleet.forget(page)
         self._wheel.leave(page, clock.now())
         self._teleop.obey()
         self._tell_wheel()
@@ -91,6 +94,7 @@ class Cockpit:
         elif isinstance(said, Look):
             self._company.look(page, slots, said.graph)
             self._tuning.look(page, slots, said.parameters)
+            self._fleet.look(page, slots, said.robots)
         elif isinstance(said, Setting):
             self._tuning.set(slots, said)
         else:

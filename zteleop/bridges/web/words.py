@@ -46,10 +46,11 @@ class Watch(Struct, tag="watch", tag_field="is", frozen=True, forbid_unknown_fie
 
 
 class Look(Struct, tag="look", tag_field="is", frozen=True, forbid_unknown_fields=True):
-    """What a page shows, and wants to be told of: the graph of nodes and topics, the nodes' parameters."""
+    """What a page shows and wants to be told of: nodes and topics, the nodes' parameters, all robots."""
 
     graph: bool
     parameters: bool
+    robots: bool
 
 
 class Setting(Struct, tag="set", tag_field="is", frozen=True, forbid_unknown_fields=True):
@@ -147,6 +148,21 @@ class Parameters(Struct, tag="parameters", tag_field="is", frozen=True):
     parameters: list[Tuned]
 
 
+class Robot(Struct, frozen=True):
+    """A robot on the bus; `operator` is called as everywhere, and nobody's while it is empty."""
+
+    name: str
+    state: str
+    why: str
+    operator: str
+
+
+class Robots(Struct, tag="robots", tag_field="is", frozen=True):
+    """All that were heard within the last minute."""
+
+    robots: list[Robot]
+
+
 _decoder = msgspec.json.Decoder(Said)
 _encoder = msgspec.json.Encoder()
 
@@ -161,6 +177,6 @@ def read(frame: str | bytes) -> Said:
         raise MessageError(f"expected what a page of this server says, found another: {error}") from None
 
 
-def text(word: Hello | Heard | Wheel | Seen | Note | Graph | Parameters) -> str:
+def text(word: Hello | Heard | Wheel | Seen | Note | Graph | Parameters | Robots) -> str:
     """Return what a server says, as it is sent."""
     return _encoder.encode(word).decode()

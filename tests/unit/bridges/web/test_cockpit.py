@@ -158,17 +158,17 @@ def test_a_page_hears_what_it_watches_as_it_was_said_and_nothing_else(driven: Se
 def test_the_bus_is_heard_and_nodes_are_asked_for_a_page_that_shows_it(server: Server, leaves: bool) -> None:
     for page in ("page 1", "page 2"):
         server.open(page)
-    server.cockpit.hear("page 1", Look(graph=True, parameters=True))
+    server.cockpit.hear("page 1", Look(graph=True, parameters=True, robots=True))
     server.node.loop.live(1.1)
     (beside,) = server.besides
     beside()
-    assert {"graph", "parameters"} <= {word["is"] for word in server.told("page 1")}
-    assert not {"graph", "parameters"} & {word["is"] for word in server.told("page 2")}
+    assert {"graph", "parameters", "robots"} <= {word["is"] for word in server.told("page 1")}
+    assert not {"graph", "parameters", "robots"} & {word["is"] for word in server.told("page 2")}
     if leaves:
         server.cockpit.leave("page 1")
     else:
-        server.cockpit.hear("page 1", Look(graph=False, parameters=False))
-    assert "robot/archangel/**" not in server.heard
+        server.cockpit.hear("page 1", Look(graph=False, parameters=False, robots=False))
+    assert server.heard == {}
     server.asked.clear()
     server.clock.pass_by(60.0)
     beside()

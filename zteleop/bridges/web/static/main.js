@@ -8,6 +8,7 @@ import { Held, touch } from "./held.js";
 import { Parameters } from "./parameters.js";
 import { Phone } from "./phone.js";
 import { Plot, save } from "./plot.js";
+import * as robots from "./robots.js";
 import { Rooms } from "./rooms.js";
 import { tilt } from "./tilt.js";
 import { Top } from "./top.js";
@@ -44,7 +45,7 @@ history.replaceState(null, "", location.pathname);
 const held = new Held(document, () => bus.sayHeld());
 const phone = new Phone();
 const view = new Top(at("top"));
-const known = { you: "", holder: "", obeyed: false, refused: "", vehicle: /** @type {any} */ (null), heard: 0, since: 0, met: false, x: 0, y: 0 };
+const known = { you: "", robot: "", holder: "", obeyed: false, refused: "", vehicle: /** @type {any} */ (null), heard: 0, since: 0, met: false, x: 0, y: 0 };
 const eye = new Eye(at("eye"), (words) => show("camera", words));
 const bus = new Bus(token, () => stick(), hear, (picture) => eye.see(picture), connected);
 bus.topics.push(...TOPICS);
@@ -63,10 +64,10 @@ function watch() {
   topics.tick();
 }
 
-/** Be told of nodes and topics, and of parameters, for as long as a room shows them. */
+/** Be told of nodes and topics, of parameters, of robots, for as long as a room shows them. */
 function look() {
   const shown = (/** @type {string[]} */ ...names) => names.some((name) => !at(`room-${name}`).hidden);
-  bus.say({ is: "look", graph: shown("topics", "graph"), parameters: shown("parameters") });
+  bus.say({ is: "look", graph: shown("topics", "graph"), parameters: shown("parameters"), robots: shown("robots") });
 }
 
 /** @returns {import("./bus.js").Stick} */
@@ -121,6 +122,7 @@ function hear(word) {
   switch (word.is) {
     case "hello":
       known.you = word.you;
+      known.robot = word.robot;
       show("robot", word.robot);
       document.title = `${word.robot} \u2013 zteleop`;
       break;
@@ -130,6 +132,9 @@ function hear(word) {
     case "graph":
       topics.tell(word.topics);
       graph.tell(word.topics);
+      break;
+    case "robots":
+      robots.show(at("room-robots"), word.robots, known.robot);
       break;
     case "parameters":
       parameters.tell(word.parameters);
