@@ -170,9 +170,24 @@ def test_what_is_not_finished_is_not_written(rig: Rig) -> None:
     sitting.answers(1)
     screen.type("q")
     assert screen.ends() == 1
-    assert "left before the end: config.toml is as it was" in screen.output.decode()
+    words = "left before the end: config.toml is as it was, and its neutral is written"
+    assert words in screen.output.decode()
     assert (rig.folder / "config.toml").read_text() == before
     assert not (rig.folder / "config.toml.bak").exists()
+    assert rig.ticks == NEUTRAL
+
+
+def test_a_neutral_that_is_not_written_does_not_stay_on_the_chip(rig: Rig) -> None:
+    """Both answers lie below: what was found would turn the wheels of this car for ever."""
+    sitting = Sitting(rig)
+    sitting.turn(THROTTLE, 364)
+    sitting.answers(1)
+    sitting.turn(THROTTLE, 360)
+    sitting.screen.type(ENTER)
+    sitting.screen.shows("3 of 7", " idle")
+    until(lambda: rig.ticks[THROTTLE] == 362, "what was found is in use")
+    sitting.screen.type("q")
+    assert sitting.screen.ends() == 1
     assert rig.ticks == NEUTRAL
 
 

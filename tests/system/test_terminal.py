@@ -56,7 +56,7 @@ def end(number, frame):
 for number in (signal.SIGTERM, signal.SIGHUP):
     signal.signal(number, end)
 channels = [Channel(n, i, 1.0, 2.0, 3.0, 290, 375, 460, 0) for i, n in enumerate(("steering", "throttle"))]
-car = Vehicle("ackermann", channels, 1.0, 2.0, 0.25, 0.4, 5.0, 4.08, True)
+car = Vehicle("ackermann", channels, 1.0, 2.0, 0.25, 0.4, 5.0, 4.08, True, 9.0)
 with Keyboard("step") as keyboard:
     keyboard.fit(car)
     while not keyboard.finished:

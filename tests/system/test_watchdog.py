@@ -94,7 +94,7 @@ def test_what_the_watchdog_sees_can_be_asked(rig: Rig) -> None:
         why = rig.result("why", *rig.bus_options())
     assert (seen.returncode, seen.stderr, seen.stdout.count("\n")) == (0, "", 1)
     assert seen.stdout.startswith(f"bench  {watching}")
-    assert "sees pulses that move, and hears commands that allow motion" in seen.stdout
+    assert "sees pulses off neutral, and hears commands that allow motion" in seen.stdout
     lines = why.stdout.splitlines()
     assert re.fullmatch(r"bench is driving: keyboard \w{4} drives", lines[0])
     names = [line.split()[0] for line in lines[1:]]

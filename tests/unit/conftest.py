@@ -26,7 +26,7 @@ def car() -> Vehicle:
         Channel("steering", 1, 1000.0, 1500.0, 2000.0, 290, 375, 460, 0),
         Channel("throttle", 0, 1000.0, 1500.0, 2000.0, 355, 370, 400, 0),
     ]
-    return Vehicle("ackermann", channels, 1.0, 2.0, 0.25, 0.4, 5.0, 4.08, True)
+    return Vehicle("ackermann", channels, 1.0, 2.0, 0.25, 0.4, 5.0, 4.08, True, 9.0)
 
 
 @pytest.fixture
@@ -34,4 +34,4 @@ def tank() -> Vehicle:
     channels = [
         Channel(name, i, 1000.0, 1500.0, 2000.0, 205, 307, 410, 0) for i, name in enumerate(("left", "right"))
     ]
-    return Vehicle("differential", channels, 0.3, 1.5, 0.0, 0.0, 3.0, 4.08, True)
+    return Vehicle("differential", channels, 0.3, 1.5, 0.0, 0.0, 3.0, 4.08, True, 9.0)

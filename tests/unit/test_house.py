@@ -156,3 +156,16 @@ def test_every_public_name_can_be_imported() -> None:
 def test_an_unknown_name_says_so() -> None:
     with pytest.raises(AttributeError, match="zteleop has no 'Nod'"):
         zteleop.__getattr__("Nod")
+
+
+def test_every_link_between_pages_leads_somewhere() -> None:
+    pages = [ROOT / "README.md", *(ROOT / "docs").rglob("*.md"), *(ROOT / "deploy").glob("*.md")]
+    pages += [*(ROOT / "benchmarks").glob("*.md"), *(ROOT / "examples").glob("*.md")]
+    dead = [
+        f"{page.relative_to(ROOT)}: {link}"
+        for page in pages
+        for link in re.findall(r"\]\(([^)#\s]+)", page.read_text())
+        if "://" not in link and not (page.parent / link).exists()
+    ]
+    assert len(pages) > 10
+    assert dead == []

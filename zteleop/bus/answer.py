@@ -21,9 +21,12 @@ OBEYED_FOR = SOURCES["program"].silence
 MORE = "more than the robot does"
 BRIEF = 0.1
 """s in which no wheel has moved to speak of"""
+FALLEN_SILENT, LOOK_EVERY = 1.2, 0.2
+"""s until a program is told that it says nothing, and between two looks"""
 PAUSE, TOO_SLOW = 5.0, 2
 """s that are no stream any more, and how many gaps in a row make a slow one"""
 ANEW = "start this anew, or let_go() in a program, when whoever watches the robot wants it to move"
+AFTER = f"when that one is done, {ANEW}"
 LET_GO = "let go of everything, and begin anew when it is free"
 ADVICE: dict[str, str] = {
     Refusal.EARLIER_START: ANEW,
@@ -32,7 +35,7 @@ ADVICE: dict[str, str] = {
     Refusal.BEFORE_RELEASE: ANEW,
     Refusal.BEFORE_REPAIR: ANEW,
     Refusal.AT_REST: ANEW,
-    Refusal.HELD: ANEW,
+    Refusal.HELD: AFTER,
     Refusal.WAITED: ANEW,
     Refusal.STALE: "look at the link, and keep every handler shorter than 0.3 s",
     Refusal.REPLAYED: "publish from one place",
@@ -127,6 +130,22 @@ class Answer:
         self._notice_robot(moving)
         self._notice_refusal(moving)
 
+    def look(self) -> float:
+        """Tell a program that is silent while its robot is to move; return when to look again.
+
+        For a thread beside it, because what keeps it silent may keep its loop as well.
+        """
+        now = clock.now()
+        silent = now - self._moved
+        if self._moved > NEVER and silent > FALLEN_SILENT and self._slow < TOO_SLOW and not self.refused:
+            self._slow = TOO_SLOW  # the next one is no news
+            self._log.warn(
+                f"nothing was said on {self._topic} for {silent:.1f} s, so robot {self._robot} rests; "
+                "publish 10 times a second for as long as it is to move, and keep every handler shorter "
+                "than 0.3 s"
+            )
+        return now + LOOK_EVERY
+
     def _notice_pace(self, moving: bool) -> None:
         """Tell whoever moves the robot again and again, but too seldom, that it rests in between."""
         now = clock.now()
@@ -154,7 +173,7 @@ class Answer:
             words, sentence = self._find(told)
             self._at = now if words else self._at
             self._tell(words, sentence)
-        elif moving and self._words and now - self._at > LASTS:
+        elif moving and self._words and now - max(self._at, self._heard.awake_since) > LASTS:
             self._tell("", "")
 
     def _find(self, told: Refusals) -> tuple[str, str]:
@@ -168,7 +187,7 @@ class Answer:
             why = why.replace("another sender", ours.by)
         if not advice:
             return why + rest, why + rest
-        if advice is ANEW and self._untold is None:
+        if advice in (ANEW, AFTER) and self._untold is None:
             advice = LET_GO
         return why + rest, f"{why.partition('; ')[0]}{rest}; {advice}"
 

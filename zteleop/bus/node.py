@@ -49,8 +49,7 @@ class Node:
         session: Session | None = None,
     ) -> None:
         self._commands: list[Publisher[Any]] = []
-        self._waits_for_spin = ""
-        """what a program that never spins does in vain"""
+        self._waits_for_spin = ""  # what a program that never spins does in vain
         self.name = chunk(name, "a node's name")
         self.robot = robot_name(robot) if robot else None
         self._hint = "" if bus or session else READS_NO_FILE
@@ -163,6 +162,8 @@ class Node:
             answer,
         )
         self._commands.append(publisher)
+        if is_program:
+            self.membership.beside(answer.look)
         return publisher
 
     def subscription(

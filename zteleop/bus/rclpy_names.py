@@ -20,5 +20,6 @@ HERE = {
 
 def miss(node: object, name: str) -> NoReturn:
     """Raise AttributeError with what to write in place of a name that a node has not."""
-    meant = f": here it is node.{HERE[name]} (docs/rclpy.md shows both)" if name in HERE else ""
-    raise AttributeError(f"a {type(node).__name__} has no {name}{meant}", name=name, obj=node)
+    if name in HERE:  # without the names by which Python would guess at another
+        raise AttributeError(f"a Node has no {name}: here it is node.{HERE[name]} (docs/rclpy.md shows both)")
+    raise AttributeError(f"a Node has no {name}", name=name, obj=node)

@@ -14,6 +14,7 @@ from zteleop.cli import _options
 from zteleop.cli._driving import drive_at_terminal
 from zteleop.cli._scratch import scratch
 from zteleop.cli._settings_file import SettingsFile, of_servos
+from zteleop.cli.neutral import bring_to_rest
 from zteleop.config import Config
 from zteleop.control.measuring import STEPS, Measuring, Step
 from zteleop.control.servo import Servo
@@ -32,7 +33,10 @@ START = 10.0
 """s in which the robot is ready, its ESC armed"""
 READY = " obeys"
 """what an actuator says that has the robot to itself"""
-KNOWN = "the motor's neutral is known: the robot starts anew with it, two seconds or so"
+KNOWN = (
+    "the motor's neutral is known: the robot starts anew with it, two seconds or so; "
+    "if a wheel turns then, q ends that"
+)
 SLOW = 0.1
 """m/s at full throttle, as this robot is told: no limit of speed then keeps a motor from its end"""
 SOURCE = "keyboard"
@@ -58,6 +62,7 @@ def find_out(
                 node, settings, tuner, SOURCE, known, watch=seen_by(tuner), task=asked_by(tuner, measuring)
             )
         if tuner.gave_up:
+            bring_to_rest(settings, settings.driver, robot)  # what was tried is not what the car knows
             return None
         if measuring.is_done:
             break
@@ -66,6 +71,7 @@ def find_out(
     try:
         return measuring.servos()
     except ValueError as error:
+        bring_to_rest(settings, settings.driver, robot)
         raise ConfigError(f"what was found makes no car: {error}; nothing is written") from None
 
 

@@ -135,6 +135,8 @@ class Motion:
         if status and status.slowed and status.max_speed < STANDS_BELOW:
             return status.slowed
         if heard and status and (dead := in_dead_zone(heard, status.pulses)):
+            if status.slowed:
+                return f"{dead}, as {status.slowed}"
             return f"{dead}: ask for {'less turn' if too_tight(asked, heard) else 'more'}"
         return "does something stand in its way?"
 

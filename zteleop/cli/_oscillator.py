@@ -35,4 +35,5 @@ def measured(settings: Config, meter_hz: float) -> Changes:
         name: replace(servo, **{field: getattr(servo, field) / factor for field in fields})
         for name, servo in settings.drive.servos.items()
     }
-    return {**of_servos(servos), ("drivers", settings.driver, "osc_hz"): round(osc_hz)}
+    drivers = {settings.driver, "pca9685"}  # the simulated chip stands for the one that was measured
+    return {**of_servos(servos), **{("drivers", name, "osc_hz"): round(osc_hz) for name in sorted(drivers)}}

@@ -20,6 +20,8 @@ TELL_AFTER = 1.0
 """s of that until it says for whom it waits"""
 ANSWERED_WITHIN = 0.5
 """s to wait for the robot's word on what it did not obey"""
+SAID = "limits.speed "
+"""how a reason begins of which whoever publishes is told"""
 TOLERANCE = 1.001
 """times a bound, beyond which somebody asks for more"""
 
@@ -102,6 +104,6 @@ class Outcome:
     def _slowed(self, status: DriveStatus) -> str:
         """Return what keeps the robot from a speed that it could do; what it cannot, its publisher says."""
         speed = abs(status.wanted.linear.x)
-        if not status.slowed or speed <= TOLERANCE * status.max_speed:
+        if not status.slowed or status.slowed.startswith(SAID) or speed <= TOLERANCE * status.max_speed:
             return ""
         return f"{speed:.3g} m/s are asked for, and it makes {status.max_speed:.3g} at most: {status.slowed}"

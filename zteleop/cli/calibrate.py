@@ -74,7 +74,7 @@ def run(arguments: argparse.Namespace) -> int:
             ask_consent(f"This turns the steering and the motor {where}.")
     found = find_out(file, settings, robot, TRIM if arguments.trim else STEPS)
     if found is None:
-        print(f"left before the end: {file.path} is as it was")
+        print(f"left before the end: {file.path} is as it was, and its neutral is written")
         return 1
     keep(file, of_servos(found), arguments.dry_run)
     return 0

@@ -10,7 +10,7 @@ from zteleop.bus.names import resolve
 from zteleop.bus.node import Node
 from zteleop.cli import _company, _options
 from zteleop.errors import BusError
-from zteleop.messages import DriveStatus, WatchdogStatus, Why
+from zteleop.messages import DriveStatus, Odometry, WatchdogStatus, Why
 
 EXAMPLES = (
     "zteleop why",
@@ -20,6 +20,9 @@ PAST = " if it failed, zteleop blackbox on the robot tells how"
 IS = {"link lost": "has lost its link", "operator idle": "waits for an act", "fault": "has a fault"}
 """states that are no word behind `is`"""
 UNPLACED = "nobody says where it is: zteleop sim moves a simulated robot; zteleop odometry is for any other"
+STANDS = "says that it stands: something is in its way, its motor does not turn yet, or it has just begun"
+ROLLS, STANDS_BELOW = 0.05, 0.01
+"""m/s that are asked of wheels, and that nobody sees"""
 HEARD_WITHIN = 2.0
 TELL_AFTER = 1.0
 """s of that until it says for whom it waits"""
@@ -42,6 +45,7 @@ def run(arguments: argparse.Namespace) -> None:
 
 def answer(node: Node) -> str:
     """Return a line for the robot and one for each layer between a key and a wheel."""
+    odoms = node.subscription("odom", Odometry)
     statuses, whys = node.subscription("drive_status", DriveStatus), node.subscription("why", Why)
     dogs = node.subscription("watchdog", WatchdogStatus)
     status, why, dog = None, None, None
@@ -67,6 +71,8 @@ def answer(node: Node) -> str:
     lines.append(f"  {'watchdog':9} {state_of(dog) if dog else 'is not heard'}")
     if status and not _is_placed(node):
         lines.append(f"  {'odom':9} {UNPLACED}")
+    elif status and _stands(status, odoms.newest()):
+        lines.append(f"  {'odom':9} {STANDS}")
     lines += [f"  {'who':9} {who}" for who in named("\n".join(lines), node)]
     lines.append(f"  {'at':9} {_moment()}")
     return "\n".join(map(printable, lines))
@@ -76,6 +82,12 @@ def _is_placed(node: Node) -> bool:
     """Say whether anybody says where the robot is."""
     endpoints = presence.endpoints(node.membership.session)
     return bool(_company.members(resolve("odom", node.robot), "pub", endpoints))
+
+
+def _stands(status: DriveStatus, odom: Odometry | None) -> bool:
+    """Say whether a robot whose wheels are to turn is where it was."""
+    to_roll = status.state == "driving" and abs(status.applied.linear.x) >= ROLLS
+    return to_roll and odom is not None and abs(odom.twist.twist.linear.x) < STANDS_BELOW
 
 
 def _moment() -> str:
@@ -92,7 +104,7 @@ def named(text: str, node: Node) -> Iterator[str]:
 
 def state_of(dog: WatchdogStatus) -> str:
     """Return what a watchdog sees, in a line."""
-    sees = "pulses that move" if dog.moving else "pulses of rest"
+    sees = "pulses off neutral" if dog.moving else "pulses of rest"
     permits = "commands that allow motion" if dog.allowed else "no command that allows motion now"
     if dog.allowed and not dog.moving:
         permits = "commands that it would let pass"

@@ -242,7 +242,8 @@ class Admission:
             return "link lost", f"{_name(newest)} {words}"
         if now < fell_silent:
             return "link lost", f"{_name(newest)} has not heard the robot for {now - newest.beat:.1f} s"
-        return "link lost", f"{_name(newest)} has been silent for {now - newest.at:.1f} s"
+        silent = self.refusals.silence(newest.source, newest.sender, newest.at, now)
+        return "link lost", f"{_name(newest)} has been silent for {silent:.1f} s"
 
     def _waits_for_an_act(self, claim: Claim, now: float) -> bool:
         """Say whether a sender talks on, and all of it was decided before its link came back."""
@@ -291,9 +292,7 @@ class Admission:
         self.mux.release(sender)
 
     def _moves(self, command: Twist | Pwm) -> bool:
-        if isinstance(command, Pwm):
-            return not self._calibration.neutral(command)
-        return command.moves
+        return not self._calibration.neutral(command) if isinstance(command, Pwm) else command.moves
 
 
 def _name(claim: Claim) -> str:

@@ -11,7 +11,7 @@ from zteleop.control.proof import NEVER, Proof
 SENDERS = 64
 """How many senders are remembered; whoever is forgotten must let go once more. Never who drives."""
 
-ANEW = "let go first, pause for 2 s, or start it anew"
+ANEW = "let go first, or start it anew"
 """what whoever moved before something ended does to begin once more"""
 
 

@@ -54,6 +54,11 @@ class LastRefusals:
         """Forget who was refused for a reason that is over."""
         self._senders = {sender: last for sender, last in self._senders.items() if last.why != why}
 
+    def silence(self, source: str, sender: int, counted: float, now: float) -> float:
+        """Return for how long a sender has said nothing, whose last word that counted came at a time."""
+        last = self._senders.get((source, sender))
+        return now - max(counted, last.at if last else counted)
+
     def recent(self, now: float, seconds: float) -> dict[Sender, Refused]:
         """Return what was said in the last seconds, who was last refused at the end."""
         return {sender: last for sender, last in self._senders.items() if now - last.at < seconds}

@@ -6,6 +6,7 @@ from zteleop.control.drive import Drive, Step
 from zteleop.control.evidence import Evidence
 from zteleop.control.explain import applied, slowed, top_speed, wanted
 from zteleop.control.gate import Refusal
+from zteleop.control.limiter import Limits
 from zteleop.control.mux import Claim
 from zteleop.control.proof import called
 from zteleop.control.refusals import Turned
@@ -14,8 +15,10 @@ from zteleop.control.snapshot import Snapshot, snapshot
 from zteleop.messages import DriveStatus, Pulse, Refusals, Refused, Vehicle
 
 
-def to_vehicle(settings: DriveSettings, tick_us: float, ready: bool = True) -> Vehicle:
-    """Return what an input must know of a robot; `tick_us` is the chip's."""
+def to_vehicle(
+    settings: DriveSettings, tick_us: float, ready: bool = True, allowed: Limits | None = None
+) -> Vehicle:
+    """Return what an input must know of a robot; `tick_us` is the chip's, `allowed` what binds it now."""
     mixer, limits = settings.mixer, settings.limits
     return Vehicle(
         kind=mixer.kind,
@@ -23,6 +26,7 @@ def to_vehicle(settings: DriveSettings, tick_us: float, ready: bool = True) -> V
         tick_us=tick_us,
         ready=ready,
         max_speed=limits.speed_of(mixer),
+        allowed_speed=(allowed or limits).speed_of(mixer),
         max_turn=limits.turn_of(mixer),
         wheelbase=mixer.wheelbase,
         max_steering_angle=mixer.max_steering_angle,
@@ -81,15 +85,21 @@ def refusals(drive: Drive, refused: dict[int, Turned], now: float) -> Refusals:
     """Return what a robot says to those whose commands do not count."""
     rest = drive.admission.holds.strongest
     told = [
-        Refused(f"{who:x}", last.source, last.why, _holder(drive, last), now - last.since)
+        Refused(f"{who:x}", last.source, *_why(drive, last), since=now - last.since)
         for who, last in refused.items()
     ]
     return Refusals(told, rest.why if rest else "", drive.admission.latch.released)
 
 
-def _holder(drive: Drive, last: Turned) -> str:
-    """Return whose source it is meanwhile, for one who is refused because of that."""
+def _why(drive: Drive, last: Turned) -> tuple[str, str]:
+    """Return why one is refused now, and whose source it is where that is why.
+
+    Whoever drove may have gone since, or been stopped.
+    """
     if last.why is not Refusal.HELD:
-        return ""
+        return last.why, ""
+    if drive.admission.holds:
+        return Refusal.AT_REST, ""
     holders = (one for one in drive.admission.mux.claims if one.source == last.source)
-    return next((called(one.source, f"{one.sender:x}") for one in holders), "")
+    holder = next((called(one.source, f"{one.sender:x}") for one in holders), "")
+    return (Refusal.HELD, holder) if holder else (Refusal.WAITED, "")

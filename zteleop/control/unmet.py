@@ -34,11 +34,13 @@ def spins(message: Message, vehicle: Vehicle | None) -> str:
 
 
 def too_fast(message: Message, vehicle: Vehicle | None) -> str:
-    """Say which speed is more than the vehicle does."""
+    """Say which speed is more than the vehicle does, or may do now."""
     twist = _twist(message)
-    if twist is None or vehicle is None or not _more(abs(twist.linear.x), vehicle.max_speed):
+    if twist is None or vehicle is None or not _more(abs(twist.linear.x), vehicle.allowed_speed):
         return ""
-    return f"{abs(twist.linear.x):.4g} m/s, and it does {vehicle.max_speed:.3g} at most"
+    most = f"it does {vehicle.allowed_speed:.3g} at most"
+    limited = ": limits.speed is set to that" if _more(vehicle.max_speed, vehicle.allowed_speed) else ""
+    return f"{abs(twist.linear.x):.4g} m/s, and {most}{limited}"
 
 
 def too_tight(message: Message, vehicle: Vehicle | None) -> str:

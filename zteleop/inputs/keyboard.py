@@ -219,7 +219,7 @@ class Keyboard:
     def _press(self, key: Key) -> None:
         names = (key.name, key.name.lower(), OTHER)
         action = next((self._bindings[name] for name in names if name in self._bindings), "")
-        self._wishes.note(key.name, action, self.bound.get("help", ""), self._now)
+        self._wishes.note(key.name, action, self.bound, self._now)
         if (self.finished or self.suspending) and action != "stop robot":
             return
         if action in DIRECTIONS:

@@ -1,6 +1,6 @@
 """What an operator asks besides driving: of the robot, by keys that repeat while held, and of the screen."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from zteleop.inputs import Wish
 
@@ -30,9 +30,11 @@ class Wishes:
         if self._is_new(switch, gap, now):
             self.switches[switch] = not self.switches[switch]
 
-    def note(self, key: str, action: str, shows: str, now: float) -> None:
-        """Take in a press, and remember one of a key without an action; `shows` is the key of the help."""
-        more = f"; {shows} shows what each key does" if shows else ""
+    def note(self, key: str, action: str, keys: Mapping[str, str], now: float) -> None:
+        """Take in a press, and remember one of a key without an action; `keys` are those that have one."""
+        says = {"stop robot": "stops the robot", "help": "shows what each key does"}
+        does = ", ".join(f"{keys[name]} {what}" for name, what in says.items() if keys.get(name))
+        more = f"; {does}" if does else ""
         self._missed = ("" if action else f"{key} does nothing here{more}", now)
 
     def missed(self, now: float) -> str:

@@ -75,6 +75,8 @@ class Vehicle(Message):
     """us of one count of the chip."""
     ready: bool
     """Its start is over: whoever begins now may drive it, unless it is stopped."""
+    allowed_speed: float
+    """m/s that its parameters let it drive now, of max_speed."""
 
     @property
     def steers(self) -> bool:

@@ -69,7 +69,9 @@ class StatePublisher:
 
     def describe(self, step: Step) -> None:
         """Say what the robot is, why it does what it does, and who is refused."""
-        vehicle = to_vehicle(self._drive.settings, self._tick_us, step.state != "starting")
+        vehicle = to_vehicle(
+            self._drive.settings, self._tick_us, step.state != "starting", self._drive.limits
+        )
         vehicle.operator_silence = self._drive.admission.operator_silence
         self._vehicles.publish(vehicle)
         now = clock.now()

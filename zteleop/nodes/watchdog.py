@@ -268,8 +268,8 @@ class Watchdog:
         robot = self._node.robot
         if self._hand.at_rest:
             self._why = f"ended, and {robot} is at rest: its chip reads neutral"
-            self._node.log.info(f"ends: {robot} is at rest, its chip reads neutral")
-            if self._child.newest:  # which one that never stepped has not
+            if self._child.newest:  # which one that never stepped has not, and perhaps no chip either
+                self._node.log.info(f"ends: {robot} is at rest, its chip reads neutral")
                 self._tell_status(ended=True)
         elif not self._never_stepped:
             self._node.log.error(f"ends, and {robot} may move: neutral cannot be written; cut its power")

@@ -1,3 +1,5 @@
+import re
+
 import pytest
 from msgspec.structs import replace
 from unit.bus.fakes import Ring, sample
@@ -8,6 +10,7 @@ from zteleop.bus.heard import Heard
 from zteleop.bus.log import NodeLog
 from zteleop.bus.subscription import Subscription
 from zteleop.control.gate import Refusal
+from zteleop.control.limiter import Limits
 from zteleop.control.mixer import Differential
 from zteleop.control.report import to_vehicle
 from zteleop.control.servo import Servo
@@ -419,5 +422,58 @@ def test_where_a_robot_is_said_is_no_help_once_it_was_heard(clock: Clock, was_he
 def test_who_drives_meanwhile_is_named(sender: Sender) -> None:
     sender.refuse(Refusal.HELD, by="keyboard 18d4")
     sender.say()
-    assert "refused by robot archangel: keyboard 18d4 drives this source; start this anew" in sender.news[0]
+    words = "keyboard 18d4 drives this source; when that one is done, start this anew"
+    assert f"refused by robot archangel: {words}" in sender.news[0]
     assert sender.answer.refused.startswith("keyboard 18d4 drives this source; let go")
+
+
+def test_a_program_that_asks_for_more_than_its_robot_may_now_is_told_that(sender: Sender) -> None:
+    sender.heard.vehicle = to_vehicle(DriveSettings(), 4.8)
+    sender.advise(Twist.planar(0.6), True)
+    assert sender.news == []
+    sender.heard.vehicle = to_vehicle(DriveSettings(), 4.8, allowed=Limits(speed=0.5))
+    for _ in range(2):
+        sender.advise(Twist.planar(0.6), True)
+    (line,) = sender.news
+    assert line.endswith("robot does: 0.6 m/s, and it does 0.5 at most: limits.speed is set to that")
+
+
+def look(sender: Sender, seconds: float) -> list[str]:
+    """Let the thread beside a program look for a while."""
+    for _ in range(round(seconds / 0.1)):
+        sender.clock.pass_by(0.1)
+        sender.answer.look()
+    return sender.news
+
+
+def test_a_program_that_falls_silent_is_told_within_two_seconds_and_once(sender: Sender) -> None:
+    sender.say(0.5)
+    assert look(sender, 1.0) == []
+    (line,) = look(sender, 5.0)
+    assert re.search(r"nothing was said on cmd_vel for 1\.[23] s, so robot archangel rests; publish", line)
+    sender.say(0.5)
+    (again,) = look(sender, 3.0)
+    assert "nothing was said on cmd_vel" in again, "it was heard meanwhile"
+
+
+def test_who_rests_may_be_silent(sender: Sender) -> None:
+    sender.say(0.5)
+    sender.say(moving=False)
+    assert look(sender, 5.0) == []
+
+
+def test_who_is_refused_is_told_that_and_not_that_he_is_silent(sender: Sender) -> None:
+    sender.refuse()
+    sender.say()
+    assert len(sender.news) == 1
+    assert look(sender, 1.9) == []
+
+
+def test_who_stood_still_while_he_was_refused_is_refused_still(sender: Sender) -> None:
+    sender.refuse()
+    sender.say()
+    assert "refused" in sender.news[0]
+    sender.clock.pass_by(9.0)
+    sender.heard.awake_since = sender.clock.time
+    sender.say(beats=True)
+    assert not [line for line in sender.news if "no longer refused" in line]

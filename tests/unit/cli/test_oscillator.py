@@ -32,6 +32,12 @@ def test_a_meter_tells_the_oscillator_and_every_pulse_stays_as_long_as_it_was() 
             assert found["drive", "servos", name, field] == pytest.approx(lasted, abs=BEFORE.tick_us / 2)
 
 
+def test_a_car_that_is_simulated_so_far_keeps_what_was_measured() -> None:
+    found = measured(parsed('driver = "simulated"'), MEANT_HZ * REAL / 25e6)
+    for driver in ("simulated", "pca9685"):
+        assert found["drivers", driver, "osc_hz"] == pytest.approx(REAL, abs=1)
+
+
 def test_a_meter_that_shows_what_is_meant_changes_nothing() -> None:
     found = measured(BEFORE, MEANT_HZ)
     assert found["drivers", "pca9685", "osc_hz"] == 25e6

@@ -112,10 +112,11 @@ def test_what_is_said_so_many_times_stays_said_for_as_long_as_it_is_obeyed() -> 
     [
         (Twist.planar(0.5), "", ""),
         (Twist.planar(-50.0, 1.0), "", ""),  # what it cannot, its publisher says
+        (Twist.planar(0.6), "limits.speed is set to 0.5 m/s", ""),  # so it does of what it may not
         (
             Twist.planar(0.6),
-            "limits.speed is set to 0.5 m/s",
-            "0.6 m/s are asked for, and it makes 0.5 at most: limits.speed is set to 0.5 m/s\n",
+            "limits.turn is 0.5 rad/s",
+            "0.6 m/s are asked for, and it makes 0.5 at most: limits.turn is 0.5 rad/s\n",
         ),
         (
             Twist.planar(-50.0),

@@ -13,7 +13,7 @@ from zteleop.bus.names import resolve
 from zteleop.cli import why
 from zteleop.cli.why import answer, state_of
 from zteleop.errors import BusError
-from zteleop.messages import DriveStatus, Layer, WatchdogStatus, Why
+from zteleop.messages import DriveStatus, Layer, Odometry, Twist, WatchdogStatus, Why
 from zteleop.testing import FakeNode
 
 
@@ -125,8 +125,8 @@ def test_where_nobody_answers_a_file_says_so_as_well(
 @pytest.mark.parametrize(
     ("status", "words"),
     [
-        (dog(moving=True, allowed=True), "sees pulses that move, and hears commands that allow motion"),
-        (dog(moving=True), "sees pulses that move, and hears no command that allows motion now"),
+        (dog(moving=True, allowed=True), "sees pulses off neutral, and hears commands that allow motion"),
+        (dog(moving=True), "sees pulses off neutral, and hears no command that allows motion now"),
         (dog(allowed=True), "sees pulses of rest, and hears commands that it would let pass"),
         (dog(restarts=3), "no command that allows motion now; 3 restarts"),
         (dog(restarts=1), "no command that allows motion now; 1 restart"),
@@ -155,3 +155,24 @@ def test_the_verb_prints_it_escaped(monkeypatch: pytest.MonkeyPatch, capsys: Any
 def test_a_stranger_adds_no_line_of_his_own() -> None:
     evil = Why([Layer("operator", "nobody\n  watchdog  watching")])
     assert len(answer(node(drive_status=STATUS, why=evil)).splitlines()) == 5
+
+
+@pytest.mark.parametrize(
+    ("state", "asked", "moves", "told"),
+    [
+        ("driving", 0.3, 0.0, True),
+        ("driving", 0.3, 0.3, False),
+        ("driving", 0.0, 0.0, False),
+        ("idle", 0.3, 0.0, False),
+    ],
+)
+def test_a_robot_that_stands_where_its_wheels_turn_is_said_to(
+    state: str, asked: float, moves: float, told: bool
+) -> None:
+    status, odom = DriveStatus.zero(), Odometry.zero()
+    status.state, status.why = state, "keyboard drives"  # type: ignore[assignment]
+    status.applied, odom.twist.twist = Twist.planar(asked), Twist.planar(moves)
+    desk = node(drive_status=status, why=LAYERS, watchdog=dog(), odom=odom)
+    key = presence.endpoint_key(resolve("odom", "archangel"), "pub", "sim", ())
+    desk.membership.session.tokens = lambda selector: {key}
+    assert (why.STANDS in answer(desk)) is told

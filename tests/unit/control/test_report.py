@@ -106,3 +106,15 @@ def test_whoever_waits_for_a_source_is_told_whose_it_is(why: Refusal, by: str) -
     waits = {11: Turned("keyboard", why, 0.0, 0.0), 12: Turned("web", why, 0.0, 0.0)}
     told = refusals(robot.drive, waits, robot.now).refused
     assert [(one.sender, one.by) for one in told] == [("b", by), ("c", "")]
+
+
+@pytest.mark.parametrize("stopped", [True, False])
+def test_whoever_waited_for_one_who_is_gone_is_told_what_is_so_now(stopped: bool) -> None:
+    robot = Robot()
+    robot.hold(FORWARD, 0.2)
+    if stopped:
+        robot.stop(7)
+    else:
+        robot.drive.admission.mux.release(1)
+    (told,) = refusals(robot.drive, {2: Turned("keyboard", Refusal.HELD, 0.0, 0.0)}, robot.now).refused
+    assert (told.why, told.by) == (Refusal.AT_REST if stopped else Refusal.WAITED, "")

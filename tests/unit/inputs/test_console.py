@@ -53,7 +53,8 @@ def bench(tank) -> Bench:
 def test_the_pad_drives_and_no_key_does(bench):
     assert not bench.type(b"wwww\x1b[A")
     assert bench.stick == Stick()
-    assert bench.console.in_vain == "up does nothing here; ? shows what each key does"
+    words = "up does nothing here; backspace stops the robot, ? shows what each key does"
+    assert bench.console.in_vain == words
     assert bench.move(**{LB: 1.0, Y: -1.0})
     assert bench.stick == Stick(1.0, 0.0, deadman=True)
     assert bench.type(b"s\x1b[B"), "it is held, whatever is typed"

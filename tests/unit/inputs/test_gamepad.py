@@ -292,7 +292,7 @@ DEEDS = st.one_of(
 @given(st.lists(DEEDS, max_size=40))
 def test_whatever_is_done_it_drives_only_while_held_and_after_rest(deeds):
     channels = [Channel(name, i, 1000.0, 1500.0, 2000.0, 205, 307, 410, 0) for i, name in enumerate("lr")]
-    bench = Player(Vehicle("differential", channels, 0.3, 1.5, 0.0, 0.0, 3.0, 4.08, True))
+    bench = Player(Vehicle("differential", channels, 0.3, 1.5, 0.0, 0.0, 3.0, 4.08, True, 9.0))
     at, rested, enabled, heard = dict[str, float](), False, False, bench.now
     for what, value in deeds:
         if what == "plug":

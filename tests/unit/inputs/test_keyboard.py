@@ -318,7 +318,7 @@ def test_any_keys_give_a_stick_in_range(drive, chunks, reset_at):
     channels = [
         Channel(name, i, 1.0, 2.0, 3.0, 290, 375, 460, 0) for i, name in enumerate(("steering", "throttle"))
     ]
-    bench = Typist(drive, Vehicle("ackermann", channels, 1.0, 2.0, 0.25, 0.4, 5.0, 4.08, True))
+    bench = Typist(drive, Vehicle("ackermann", channels, 1.0, 2.0, 0.25, 0.4, 5.0, 4.08, True, 9.0))
     for index, (data, after) in enumerate(chunks):
         bench.type(data, after)
         stick = bench.stick()
@@ -383,7 +383,8 @@ def test_a_key_can_be_unbound(car):
 
 def test_a_key_that_does_nothing_says_so_for_a_moment(step):
     step.type(b"y")
-    assert step.keyboard.in_vain == "y does nothing here; ? shows what each key does"
+    words = "y does nothing here; backspace stops the robot, ? shows what each key does"
+    assert step.keyboard.in_vain == words
     step.type(b"", after=MISSED_FOR)
     assert not step.keyboard.in_vain
     step.type(b"y")

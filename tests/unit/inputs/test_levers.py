@@ -116,7 +116,7 @@ def test_whatever_is_pressed_ticks_stay_within_and_come_back_exactly(presses, en
         Channel(name, i, 1.0, 2.0, 3.0, low, neutral, high, dead)
         for i, name in enumerate(("steering", "throttle"))
     ]
-    vehicle = Vehicle("ackermann", channels, 1.0, 1.0, 0.2, 0.4, 5.0, 4.08, True)
+    vehicle = Vehicle("ackermann", channels, 1.0, 1.0, 0.2, 0.4, 5.0, 4.08, True, 9.0)
     levers = fitted(vehicle, Steps(step, step))
     for axis, sign in presses:
         levers.press(axis, sign)

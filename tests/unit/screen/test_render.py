@@ -175,7 +175,10 @@ def boards(draw) -> Dashboard:
     kind = draw(st.sampled_from(["ackermann", "differential"]))
     vehicle = draw(
         st.sampled_from(
-            [None, Vehicle(kind, channels, draw(ANY), draw(ANY), 0.2, draw(st.floats(0, 1)), 5.0, 4.08, True)]
+            [
+                None,
+                Vehicle(kind, channels, draw(ANY), draw(ANY), 0.2, draw(st.floats(0, 1)), 5.0, 4.08, True, 9),
+            ]
         )
     )
     pulses = [Pulse(draw(st.one_of(st.just("steering"), WORDS)), 0, draw(ANY), 1.0, draw(ticks))]
