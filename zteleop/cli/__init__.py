@@ -204,7 +204,14 @@ def _unknown(verb: str) -> str:
         return f"no verb {verb!r}; zteleop run {verb} runs a program"
     if verb in ELSEWHERE:
         return f"no verb {verb!r}; {ELSEWHERE[verb]}"
-    if verb.partition(" ")[0] in GROUPS:
-        return f"no verb {verb!r}; there are {', '.join(_grouped(verb.partition(' ')[0]))}"
+    if verb.startswith("-"):
+        near = get_close_matches(verb, ["--help", "--version"], 1)
+        meant = f"did you mean {near[0]}?" if near else "options stand behind the verb, as in zteleop why --robot abe"
+        return f"no verb {verb!r}; {meant}"
+    group, _, word = verb.partition(" ")
+    if group in GROUPS:
+        near = get_close_matches(word, GROUPS[group], 1)
+        there = f"did you mean {group} {near[0]}?" if near else f"there are {', '.join(_grouped(group))}"
+        return f"no verb {verb!r}; {there}"
     near = get_close_matches(verb, [*VERBS, *GROUPS], 1)
     return f"no verb {verb!r}; " + (f"did you mean {near[0]}?" if near else f"known: {', '.join(VERBS)}")

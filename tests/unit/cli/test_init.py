@@ -57,7 +57,8 @@ def test_version_is_the_packages(flag: str, capsys: pytest.CaptureFixture[str]) 
         ("keybord", "zteleop: no verb 'keybord'; did you mean keyboard?"),
         ("ech", "zteleop: no verb 'ech'; did you mean echo?"),
         ("fly", f"zteleop: no verb 'fly'; known: {', '.join(VERBS)}"),
-        ("--robot", "zteleop: no verb '--robot'; known: "),
+        ("--robot", "zteleop: no verb '--robot'; options stand behind the verb, as in zteleop why --robot "),
+        ("--hlep", "zteleop: no verb '--hlep'; did you mean --help?"),
         ("bag", "zteleop: no verb 'bag'; a robot keeps its last minute: zteleop blackbox"),
         ("release", "zteleop: no verb 'release'; zteleop stop --release lets a robot drive again"),
         ("nose.py", "zteleop: no verb 'nose.py'; zteleop run nose.py runs a program"),
@@ -156,3 +157,8 @@ def test_the_list_of_all_verbs_has_headings_and_that_of_a_group_none(
     assert [line.split("  ")[1] for line in lines if line.startswith("  ")] == [*VERBS]
     main(["node"])
     assert not [line for line in capsys.readouterr().out.splitlines() if line.endswith(":")]
+
+
+def test_a_verb_of_a_group_that_was_mistyped_is_asked_about(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["topic", "lst"]) == 2
+    assert capsys.readouterr().err == "zteleop: no verb 'topic lst'; did you mean topic list?\n"
