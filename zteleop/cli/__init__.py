@@ -206,8 +206,8 @@ def _unknown(verb: str) -> str:
         return f"no verb {verb!r}; {ELSEWHERE[verb]}"
     if verb.startswith("-"):
         near = get_close_matches(verb, ["--help", "--version"], 1)
-        meant = f"did you mean {near[0]}?" if near else "options stand behind the verb, as in zteleop why --robot abe"
-        return f"no verb {verb!r}; {meant}"
+        behind = "options stand behind the verb, as in zteleop why --robot archangel"
+        return f"no verb {verb!r}; " + (f"did you mean {near[0]}?" if near else behind)
     group, _, word = verb.partition(" ")
     if group in GROUPS:
         near = get_close_matches(word, GROUPS[group], 1)
