@@ -56,6 +56,8 @@ def _why(unit: str, kind: Kind) -> str:
             return f", which is {other.called}"
     if unit.startswith(","):
         return "; a decimal point is a point"
+    if "," in unit:
+        return "; that is two of them: write a space"
     return f"; no unit {_shown(unit)}, {nearest(unit, kind.units)}"
 
 
