@@ -49,7 +49,11 @@ def test_a_quantity_is_what_people_mean_by_it(text: str, dimension: Dimension, v
         ("", "length", "expected a length such as 50cm, found ''"),
         ("m", "length", "expected a length such as 50cm, found 'm'; write number and unit together"),
         ("0,2m", "length", "expected a length such as 50cm, found '0,2m'; a decimal point is a point"),
-        ("1m,1m", "length", "expected a length such as 50cm, found '1m,1m'; that is two of them: write a space"),
+        (
+            "1m,1m",
+            "length",
+            "expected a length such as 50cm, found '1m,1m'; that is two of them: write a space",
+        ),
         (
             "1e400m",
             "length",
