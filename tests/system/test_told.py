@@ -203,7 +203,7 @@ def test_a_second_program_is_told_when_the_first_is_done(rig: Rig) -> None:
     first = rig.join(*DRIVE)
     moves(rig)
     second = rig.program(SECOND.replace("{endpoint}", rig.endpoint))
-    second.says(" drives this source; start this anew, or")
+    second.says(" drives this source; when that one is done, start this anew, or")
     assert re.search(r"refused by robot bench: program \w{4} drives this source", second.text)
     first.signal(signal.SIGINT)
     assert first.ends() == 130

@@ -1,5 +1,6 @@
 """Pages by way of a server: a real robot, a real bus, and connections as a browser makes them."""
 
+import asyncio
 import json
 import re
 import signal
@@ -15,6 +16,7 @@ from typing import Any
 import pytest
 from processes import Process
 from rig import NEUTRAL, Rig, until
+from websockets.asyncio import client as aio
 from websockets.exceptions import ConnectionClosed, InvalidMessage, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 
@@ -203,12 +205,15 @@ def test_a_page_is_served_in_every_network_and_by_tls(rig: Rig, pair: tuple[str,
     trust = ssl.create_default_context(cafile=certificate)
     trust.check_hostname = False  # its own address is whatever network this machine is in
     protocols: Any = ["zteleop.v1", f"token.{token}"]
+
+    async def greeted(place: str) -> str:
+        """Open a page, in one thread: a TLS connection must not be written and read at once."""
+        about: Any = {"subprotocols": protocols, "origin": f"https://{place}"}
+        async with aio.connect(f"wss://{place}/bus", ssl=trust, **about) as page:
+            return str(json.loads(await page.recv())["is"])
+
     for host in {"127.0.0.1", own}:
-        place = f"{host}:{port}"
-        with connect(
-            f"wss://{place}/bus", subprotocols=protocols, origin=f"https://{place}", ssl=trust
-        ) as page:  # type: ignore[arg-type]
-            assert json.loads(page.recv())["is"] == "hello"
+        assert asyncio.run(greeted(f"{host}:{port}")) == "hello"
     with pytest.raises(InvalidMessage), connect(f"ws://127.0.0.1:{port}/bus", subprotocols=protocols):
         pass
     assert "read the address along" not in server.text
