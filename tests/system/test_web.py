@@ -4,12 +4,13 @@ import asyncio
 import json
 import re
 import signal
+import socket
 import ssl
 import subprocess
 import threading
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -182,6 +183,34 @@ def test_nonsense_is_answered_and_too_much_of_it_ends_the_connection(server: Pro
         until(lambda: ann.connection.close_code, "the end")
         assert ann.connection.close_code == 1008
         ann.closed = True
+
+
+def test_two_hundred_who_connect_and_say_nothing_keep_nobody_from_driving(rig: Rig, server: Process) -> None:
+    found = re.search(r"http://(\S+):(\d+)/#t=", server.text)
+    assert found
+    with ExitStack() as stack:
+        for _ in range(200):
+            stack.enter_context(socket.create_connection((found[1], int(found[2]))))
+        with page(server) as ann:
+            ann.drive = 0.5
+            until(lambda: (rig.ticks[THROTTLE] or 0) > NEUTRAL[THROTTLE], "it drives")
+            ann.drive = 0.0
+            until(lambda: rig.ticks == tuple(NEUTRAL), "it rests")
+    assert server.text.count("\n") < 50, "what strangers do does not fill the log"
+
+
+def test_a_frame_that_is_too_long_ends_its_connection_and_no_other(rig: Rig, server: Process) -> None:
+    with page(server) as ann, page(server) as bob:
+        ann.drive = 0.5
+        until(lambda: (rig.ticks[THROTTLE] or 0) > NEUTRAL[THROTTLE], "it drives")
+        with suppress(ConnectionClosed):
+            bob.connection.send("x" * 70_000)
+        until(lambda: bob.connection.close_code, "the end")
+        assert bob.connection.close_code == 1009
+        bob.closed = True
+        assert (rig.ticks[THROTTLE] or 0) > NEUTRAL[THROTTLE], "ann drives on"
+        ann.drive = 0.0
+        until(lambda: rig.ticks == tuple(NEUTRAL), "it rests")
 
 
 @pytest.fixture

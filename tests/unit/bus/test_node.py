@@ -416,3 +416,13 @@ def test_what_goes_wrong_beside_a_node_that_is_open_is_told(
     begin.set()
     beside.join()
     assert len(told) == 1
+
+
+@pytest.mark.parametrize(("source", "looks"), [("program", 1), ("planner", 1), ("keyboard", 0)])
+def test_somebody_looks_after_a_program_that_falls_silent_and_after_no_operator(
+    node: Node, monkeypatch: pytest.MonkeyPatch, source: str, looks: int
+) -> None:
+    besides: list[object] = []
+    monkeypatch.setattr(node.membership, "beside", besides.append)
+    node.publisher("cmd_vel", Twist, source=source)
+    assert len(besides) == looks

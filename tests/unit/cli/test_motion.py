@@ -245,6 +245,13 @@ def test_a_motor_in_its_dead_zone_is_why_it_stands(clock: Clock, car: Vehicle) -
     motion._outcome.status = SimpleNamespace(  # type: ignore[assignment]
         pulses=[Pulse("throttle", 0, 0.1, 0.0, neutral + 3)], slowed="", max_speed=1.0
     )
+    motion._outcome.status = SimpleNamespace(  # type: ignore[assignment]
+        pulses=[Pulse("throttle", 0, 0.1, 0.0, neutral + 3)], slowed="limits.speed is set", max_speed=0.05
+    )
+    assert motion._hint(Twist.planar(1.0)).endswith("in the motor's dead zone, as limits.speed is set")
+    motion._outcome.status = SimpleNamespace(  # type: ignore[assignment]
+        pulses=[Pulse("throttle", 0, 0.1, 0.0, neutral + 3)], slowed="", max_speed=1.0
+    )
     assert "ask for less turn" in motion._hint(Twist.planar(0.2, 30.0))
     assert motion._hint(Twist.planar(0.0, 1.0)) == STEERS_ONLY
     kept = "program may move nothing here"

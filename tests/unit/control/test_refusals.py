@@ -121,3 +121,11 @@ def test_whoever_was_refused_for_what_is_over_is_forgotten() -> None:
     refused.forget(Refusal.AT_REST)
     assert list(refused.recent(1.5, 10.0)) == [("program", 8)]
     assert refused.count == 2
+
+
+def test_a_sender_that_is_refused_is_not_silent() -> None:
+    refused = LastRefusals()
+    refused.note("program", 7, Refusal.STALE, 5.0)
+    assert refused.silence("program", 7, 1.0, 6.0) == 1.0
+    assert refused.silence("program", 7, 5.5, 6.0) == 0.5
+    assert refused.silence("program", 8, 1.0, 6.0) == 5.0

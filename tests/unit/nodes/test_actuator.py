@@ -888,6 +888,14 @@ def test_who_is_refused_hears_what_keeps_the_robot_at_rest_and_which_stop_was_th
     assert robot.status.released == KEPT.id
 
 
+def test_whoever_drives_is_told_how_fast_he_may_as_it_is_now(robot: Robot) -> None:
+    fastest = robot.node.said["vehicle"].messages[-1].max_speed
+    robot.node.parameters["limits.speed"].set(0.5)
+    robot.node.loop.run(TOPICS["why"].every)
+    told = robot.node.said["vehicle"].messages[-1]
+    assert (told.max_speed, told.allowed_speed) == (fastest, 0.5)
+
+
 def test_whoever_drives_is_told_how_often_to_act_as_it_is_now(robot: Robot) -> None:
     assert robot.node.said["vehicle"].messages[-1].operator_silence == 5.0
     robot.node.parameters["deadlines.operator"].set(2.0)
