@@ -15,6 +15,7 @@ from zteleop.bus.overheard import OverheardRing
 from zteleop.bus.pump import Pump
 from zteleop.bus.session import Inbox, Question, Reply, Sample, Undeclarable
 from zteleop.errors import BusError
+from zteleop.machine.signals import sheltered
 
 _REPLY_WITHIN = 1.5
 """s for everybody to say which tokens there are"""
@@ -98,7 +99,8 @@ class ZenohSession:
 
         # Not by a channel: zenoh's holds 256, and whoever fills it here is who should empty it.
         replies: Any = zenoh.handlers.Callback(take, told.set, indirect=False)
-        self.zenoh.liveliness().get(selector, replies, timeout=_REPLY_WITHIN)
+        with sheltered():  # zenoh may answer at once, in this thread, and drops what a callback raises
+            self.zenoh.liveliness().get(selector, replies, timeout=_REPLY_WITHIN)
         told.wait(_REPLY_WITHIN)  # zenoh's own patience with who is frozen is longer
         return set(found)
 
@@ -124,8 +126,9 @@ class ZenohSession:
             told.set()
 
         handler: Any = zenoh.handlers.Callback(take, told.set, indirect=False)
-        with _in_words():
-            self.zenoh.get(key, handler, payload=payload, encoding=zenoh.Encoding(encoding), timeout=seconds)
+        about: Any = {"payload": payload, "encoding": zenoh.Encoding(encoding), "timeout": seconds}
+        with _in_words(), sheltered():  # as for tokens
+            self.zenoh.get(key, handler, **about)
         told.wait(seconds + _REPLY_WITHIN)
         return to_reply(replies[0]) if replies else None
 

@@ -1,3 +1,5 @@
+import signal
+from contextlib import suppress
 from types import SimpleNamespace
 from typing import Any
 
@@ -7,6 +9,7 @@ import zenoh
 from zteleop.bus.session import Sample
 from zteleop.bus.zenoh_session import ZenohOutlet, ZenohRing, ZenohSession
 from zteleop.errors import BusError
+from zteleop.machine import signals
 
 
 class Zenoh:
@@ -89,3 +92,23 @@ def test_what_zenoh_refuses_to_say_is_an_error_of_the_bus() -> None:
     assert outlet.matched is True
     with pytest.raises(BusError, match="closed"):
         outlet.put(b"{}", "text/plain", None)
+
+
+class Answering(Zenoh):
+    """Answers at once, in the thread that asks: there comes a Ctrl-C, and what it raises is dropped."""
+
+    def get(self, *about: object, **more: object) -> None:
+        with suppress(BaseException):
+            signals._raise(signal.SIGINT, None)
+
+    def liveliness(self) -> "Answering":
+        return self
+
+
+@pytest.mark.parametrize("asks", ["a service", "tokens"])
+def test_ctrl_c_while_zenoh_answers_is_not_lost(monkeypatch: pytest.MonkeyPatch, asks: str) -> None:
+    monkeypatch.setattr(signals, "UNDISTURBED", 0.0)
+    monkeypatch.setattr("zteleop.bus.zenoh_session._REPLY_WITHIN", 0.0)
+    session: Any = ZenohSession(Answering())  # type: ignore[arg-type]
+    with pytest.raises(KeyboardInterrupt):
+        session.ask("robot/abe/lights", b"", "", 0.0) if asks == "a service" else session.tokens("robot/**")
