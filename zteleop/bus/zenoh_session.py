@@ -1,11 +1,11 @@
 """A session of zenoh as keys and bytes; only this file, `zenoh_open` and `linger` know zenoh."""
 
 import atexit
-import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
-from typing import Any, Self
+from queue import Empty, SimpleQueue
+from typing import Any, Self, TypeVar
 from weakref import WeakSet
 
 import zenoh
@@ -16,6 +16,8 @@ from zteleop.bus.pump import Pump
 from zteleop.bus.session import Inbox, Question, Reply, Sample, Undeclarable
 from zteleop.errors import BusError
 from zteleop.machine.signals import sheltered
+
+T = TypeVar("T")
 
 _REPLY_WITHIN = 1.5
 """s for everybody to say which tokens there are"""
@@ -91,17 +93,17 @@ class ZenohSession:
 
     def tokens(self, selector: str) -> set[str]:
         found: set[str] = set()
-        told = threading.Event()
+        told: SimpleQueue[None] = SimpleQueue()
 
         def take(reply: zenoh.Reply) -> None:
             if reply.ok and len(found) < _MOST:
                 found.add(str(reply.ok.key_expr))
 
         # Not by a channel: zenoh's holds 256, and whoever fills it here is who should empty it.
-        replies: Any = zenoh.handlers.Callback(take, told.set, indirect=False)
+        replies: Any = zenoh.handlers.Callback(take, lambda: told.put(None), indirect=False)
         with sheltered():  # zenoh may answer at once, in this thread, and drops what a callback raises
             self.zenoh.liveliness().get(selector, replies, timeout=_REPLY_WITHIN)
-        told.wait(_REPLY_WITHIN)  # zenoh's own patience with who is frozen is longer
+        _await(told, _REPLY_WITHIN)  # zenoh's own patience with who is frozen is longer
         return set(found)
 
     def watch_tokens(self, selector: str, depth: int, history: bool = False) -> "ZenohRing":
@@ -118,19 +120,13 @@ class ZenohSession:
             return self.zenoh.declare_queryable(key, handler, complete=True)
 
     def ask(self, key: str, payload: bytes, encoding: str, seconds: float) -> Reply | None:
-        replies: list[zenoh.Reply] = []
-        told = threading.Event()
-
-        def take(reply: zenoh.Reply) -> None:
-            replies.append(reply)
-            told.set()
-
-        handler: Any = zenoh.handlers.Callback(take, told.set, indirect=False)
+        told: SimpleQueue[zenoh.Reply | None] = SimpleQueue()
+        handler: Any = zenoh.handlers.Callback(told.put, lambda: told.put(None), indirect=False)
         about: Any = {"payload": payload, "encoding": zenoh.Encoding(encoding), "timeout": seconds}
         with _in_words(), sheltered():  # as for tokens
             self.zenoh.get(key, handler, **about)
-        told.wait(seconds + _REPLY_WITHIN)
-        return to_reply(replies[0]) if replies else None
+        reply = _await(told, seconds + _REPLY_WITHIN)
+        return to_reply(reply) if reply else None
 
     def deliver(self, inbox: Inbox, handler: Callable[[Any], object], loop: Loop) -> Pump:
         return Pump(inbox, handler, loop)
@@ -149,6 +145,18 @@ class ZenohSession:
 
     def __exit__(self, *exc: object) -> None:
         self.close()
+
+
+def _await(told: "SimpleQueue[T]", seconds: float) -> T | None:
+    """Return what a thread of zenoh's tells; None where it does not within some seconds.
+
+    Not by an Event: a Ctrl-C that raises while its Condition takes its lock back leaves that locked, and
+    zenoh's thread, which waits for it in `set`, keeps whoever closes the session waiting.
+    """
+    try:
+        return told.get(timeout=seconds)
+    except Empty:
+        return None
 
 
 _open: WeakSet[ZenohSession] = WeakSet()
