@@ -89,3 +89,15 @@ def sits(rig: Rig, display: str, command: list[str], about: Mapping[str, str]) -
             desk.let_go(key)
         desk.close()
         until(lambda: rig.ticks == NEUTRAL, "rest")
+
+
+def loses_the_focus(rig: Rig, here: Desk) -> None:
+    """Hold a key while the focus goes and comes back: it drives no longer, and arms nothing."""
+    here.drives_at_last("Up")
+    here.look_elsewhere()
+    until(lambda: rig.ticks == NEUTRAL, "rest")
+    here.focus()
+    for _ in every(0.1, 10):
+        assert rig.ticks == NEUTRAL, "the key is still down, and arms nothing"
+    here.let_go("Up")
+    here.drives_at_last("Up")

@@ -8,9 +8,9 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from desk import CLASS, Desk, screen, sits
+from desk import CLASS, Desk, loses_the_focus, screen, sits
 from processes import descendants
-from rig import NEUTRAL, Rig, every, until
+from rig import NEUTRAL, Rig, until
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 MISSING = [name for name in ("Xvfb", "xdotool") if not shutil.which(name)] + ["chromium"] * (not CHROMIUM)
@@ -46,14 +46,7 @@ def page(rig: Rig) -> Iterator[Desk]:
 
 def test_a_key_that_is_held_while_the_focus_goes_drives_no_longer_and_arms_nothing(rig: Rig) -> None:
     with page(rig) as here:
-        here.drives_at_last("Up")
-        here.look_elsewhere()
-        until(lambda: rig.ticks == NEUTRAL, "rest")
-        here.focus()
-        for _ in every(0.1, 10):
-            assert rig.ticks == NEUTRAL, "the key is still down, and arms nothing"
-        here.let_go("Up")
-        here.drives_at_last("Up")
+        loses_the_focus(rig, here)
 
 
 def test_a_browser_that_is_killed_is_neutral(rig: Rig) -> None:

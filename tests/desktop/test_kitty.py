@@ -10,7 +10,7 @@ from contextlib import AbstractContextManager
 from pathlib import Path
 
 import pytest
-from desk import CLASS, QUIET, Desk, screen, sits
+from desk import CLASS, QUIET, Desk, loses_the_focus, screen, sits
 from processes import ZTELEOP, descendants
 from rig import NEUTRAL, Rig, every, free_port, until
 
@@ -70,14 +70,7 @@ def test_two_keys_that_are_held_drive_and_steer(rig: Rig, display: str) -> None:
 
 def test_with_the_focus_everything_is_let_go(rig: Rig, display: str) -> None:
     with desk(rig, display, keyboard(rig)) as here:
-        here.drives_at_last("Up")
-        here.look_elsewhere()
-        until(lambda: rig.ticks == NEUTRAL, "rest")
-        here.focus()
-        for _ in every(0.1, 10):
-            assert rig.ticks == NEUTRAL, "the key is still down, and arms nothing"
-        here.let_go("Up")
-        here.drives_at_last("Up")
+        loses_the_focus(rig, here)
 
 
 @pytest.fixture(scope="module")

@@ -2,12 +2,12 @@
 
 from collections import Counter, deque
 
+from zteleop.bridges.web.lookers import Lookers
 from zteleop.bridges.web.slots import Slots
 from zteleop.bridges.web.words import Graph, Topic, text
 from zteleop.bus import clock
 from zteleop.bus.node import Node
 from zteleop.bus.presence import Endpoint, Kind, Tokens, endpoint_of
-from zteleop.bus.session import Overheard
 from zteleop.bus.topics import topic_of
 
 MOST = 1000
@@ -26,9 +26,8 @@ class Company:
     def __init__(self, node: Node) -> None:
         self._prefix = f"robot/{node.robot}/"
         self._session = node.membership.session
-        self._pages: dict[str, Slots] = {}
+        self._lookers = Lookers(self._session, f"{self._prefix}**", DEPTH)
         self._tokens: Tokens | None = None
-        self._ring: Overheard | None = None
         self._seconds: deque[tuple[float, Counter[str]]] = deque(maxlen=SECONDS)
         """when each of the last began, and what was said in it; the present one at the end"""
         node.every(COUNT_EVERY)(self._count)
@@ -39,41 +38,34 @@ class Company:
         if not looks:
             self.forget(page)
             return
-        self._pages[page] = slots
-        if self._ring is None:
+        if not self._lookers:
             self._tokens = self._tokens or Tokens(self._session, f"{self._prefix}live/**", MOST)
-            self._ring = self._session.overhear(f"{self._prefix}**", DEPTH)
             self._seconds.clear()
             self._begin()
+        self._lookers.look(page, slots)
 
     def forget(self, page: str) -> None:
         """Take in that a page looks no longer, or is gone."""
-        self._pages.pop(page, None)
-        if not self._pages and self._ring:
-            self._ring.undeclare()
-            self._ring = None
+        self._lookers.forget(page)
 
     def _count(self) -> None:
-        if self._ring is None:
-            return
-        _, said = self._seconds[-1]
-        while (sample := self._ring.try_recv()) is not None:
+        for sample in self._lookers.take():
+            _, said = self._seconds[-1]
             said[topic_of(sample.key.removeprefix(self._prefix)).name] += sample.is_put
 
     def _begin(self) -> None:
         self._seconds.append((clock.now(), Counter()))
 
     def _tell(self) -> None:
-        if self._ring is None:
+        if not self._lookers:
             return
         keys = self._tokens.there() if self._tokens else ()
         parts = [part for part in map(endpoint_of, keys) if part and "*" not in part.topic]
         said = sum((said for _, said in self._seconds), Counter())
         seconds = max(clock.now() - self._seconds[0][0], COUNT_EVERY)
         names = {topic_of(part.topic).name for part in parts if part.kind in ("pub", "sub")} | {*said}
-        word = text(Graph([_topic(name, parts, said[name] / seconds) for name in sorted(names)]))
-        for slots in self._pages.values():
-            slots.put("graph", word)
+        topics = [_topic(name, parts, said[name] / seconds) for name in sorted(names)]
+        self._lookers.tell("graph", text(Graph(topics)))
         self._begin()
 
 

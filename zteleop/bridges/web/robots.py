@@ -1,11 +1,12 @@
 """Every robot on the bus, what it does and for whom: told to pages that look, and heard for nobody else."""
 
+from zteleop.bridges.web.lookers import Lookers
 from zteleop.bridges.web.slots import Slots
 from zteleop.bridges.web.words import Robot, Robots, text
 from zteleop.bus import clock, codec
 from zteleop.bus.names import is_robot
 from zteleop.bus.node import Node
-from zteleop.bus.session import Overheard, Sample
+from zteleop.bus.session import Sample
 from zteleop.control.proof import called
 from zteleop.errors import MessageError
 from zteleop.messages import DriveStatus
@@ -27,9 +28,7 @@ class Fleet:
     """For the node's loop alone."""
 
     def __init__(self, node: Node) -> None:
-        self._session = node.membership.session
-        self._pages: dict[str, Slots] = {}
-        self._ring: Overheard | None = None
+        self._lookers = Lookers(node.membership.session, "robot/*/drive_status", DEPTH)
         self._newest: dict[str, tuple[Sample, float]] = {}
         """robot -> what it said last, and when that came"""
         node.every(LOOK_EVERY)(self._look)
@@ -37,38 +36,31 @@ class Fleet:
 
     def look(self, page: str, slots: Slots, looks: bool) -> None:
         """Tell a page of all robots from now on, once a second, or no longer."""
-        if not looks:
+        if looks:
+            self._lookers.look(page, slots)
+        else:
             self.forget(page)
-            return
-        self._pages[page] = slots
-        self._ring = self._ring or self._session.overhear("robot/*/drive_status", DEPTH)
 
     def forget(self, page: str) -> None:
         """Take in that a page looks no longer, or is gone."""
-        self._pages.pop(page, None)
-        if not self._pages and self._ring:
-            self._ring.undeclare()
-            self._ring = None
+        self._lookers.forget(page)
+        if not self._lookers:
             self._newest.clear()
 
     def _look(self) -> None:
-        if self._ring is None:
-            return
         now = clock.now()
-        while (sample := self._ring.try_recv()) is not None:
+        for sample in self._lookers.take():
             robot = sample.key.split("/")[1]
             if sample.is_put and is_robot(robot) and (robot in self._newest or len(self._newest) < MOST):
                 self._newest[robot] = sample, now
 
     def _tell(self) -> None:
-        if self._ring is None:
+        if not self._lookers:
             return
         now = clock.now()
         self._newest = {name: last for name, last in self._newest.items() if now - last[1] < GONE}
         robots = [_robot(name, *last, now) for name, last in sorted(self._newest.items())]
-        word = text(Robots(robots))
-        for slots in self._pages.values():
-            slots.put("robots", word)
+        self._lookers.tell("robots", text(Robots(robots)))
 
 
 def _robot(name: str, sample: Sample, at: float, now: float) -> Robot:

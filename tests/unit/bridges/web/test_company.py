@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from unit.bus.fakes import Ring, Session, put
 
-from zteleop.bridges.web.company import SECONDS, Company
+from zteleop.bridges.web.company import COUNT_EVERY, DEPTH, SECONDS, Company
 from zteleop.bridges.web.slots import Slots
 from zteleop.testing import Clock, FakeNode
 
@@ -134,3 +134,19 @@ def test_what_was_said_before_a_page_looked_again_does_not_count(room: Room) -> 
     room.look(looks=False)
     room.look()
     assert room.told() == []
+
+
+def test_a_flood_holds_up_the_loop_that_drives_for_no_longer_than_a_ring_is_deep(room: Room) -> None:
+    room.look()
+    ring = room.ring
+    assert ring
+    flood = put(b"1", key="robot/archangel/odom")
+    taken: list[int] = []
+
+    def pour() -> Any:
+        taken.append(1)
+        return flood
+
+    ring.try_recv = pour  # type: ignore[method-assign]
+    room.node.loop.run(COUNT_EVERY)
+    assert len(taken) == DEPTH

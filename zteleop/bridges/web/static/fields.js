@@ -1,5 +1,5 @@
 // @ts-check
-/** What a message is made of: each value with the way that leads to it. */
+/** What a message is made of, each value with the way that leads to it, and how values are read. */
 
 const MOST = 16; // of an array
 const LONGEST = 160; // of a text
@@ -49,4 +49,13 @@ export function worded(value) {
   if (typeof value === "number") return Number.isInteger(value) ? String(value) : value.toPrecision(6).replace(/\.?0+$/, "");
   const text = String(value);
   return text.length > LONGEST ? `${text.slice(0, LONGEST)}\u2026` : text;
+}
+
+/**
+ * @param {number} hz
+ * @returns {string} how often something is said, as a person reads it
+ */
+export function rate(hz) {
+  if (!hz) return "";
+  return hz >= 10 ? `${Math.round(hz)}/s` : `${hz.toFixed(1)}/s`;
 }

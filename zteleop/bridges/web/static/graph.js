@@ -1,6 +1,8 @@
 // @ts-check
 /** Nodes and topics as a drawing: who says what on the left, who hears it on the right, rates on the arrows. */
 
+import { rate } from "./fields.js";
+
 const SVG = "http://www.w3.org/2000/svg";
 const ROW = 30; // px a topic
 const [WIDE, TOPIC, NODE] = [760, 210, 130]; // px
@@ -29,9 +31,6 @@ function counted(names) {
   for (const name of names) found.set(name, (found.get(name) || 0) + 1);
   return found;
 }
-
-/** @param {number} hz */
-export const rate = (hz) => (hz >= 10 ? `${Math.round(hz)}/s` : hz ? `${hz.toFixed(1)}/s` : "");
 
 /**
  * Where each node stands: beside the middle of its topics, and none above another.

@@ -1,8 +1,7 @@
 // @ts-check
 /** What is said on the bus: each topic with its rate, and one of them value by value, as it comes. */
 
-import { fields, number, typed, worded } from "./fields.js";
-import { rate } from "./graph.js";
+import { fields, number, rate, typed, worded } from "./fields.js";
 
 const SHOWN_EVERY = 200; // ms
 /** @typedef {{name: string, types: string[], said_by: string[], heard_by: string[], hz: number}} Topic */
