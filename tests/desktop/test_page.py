@@ -239,6 +239,8 @@ def test_what_is_said_on_the_bus_is_shown_as_it_comes_and_drawn_as_lines(
         page.locator("#plot-lines button", has_text="\u00d7").click()
         expect(page.locator("#plot-picture")).to_be_hidden()
         expect(page.get_by_label("twist.twist.linear.x", exact=True)).not_to_be_checked()
+        page.locator("#topics-list button", has_text=re.compile("^stop")).click()
+        expect(page.locator("#topics-echo")).to_have_text("stop: waits for what is said next")
 
 
 def test_a_parameter_is_changed_by_a_slider_and_the_robot_has_the_last_word(
@@ -334,6 +336,14 @@ def test_a_phone_drives_by_being_tilted_stays_awake_and_is_felt_when_driving_end
         page.evaluate(TILT, [10, -20])
         drives(rig)
         until(lambda: (rig.ticks[STEERING] or 0) > NEUTRAL[STEERING], "it steers to the left")
+        button.dispatch_event("pointerup", about)
+        rests(rig)
+        page.evaluate(TILT, [-40, 0])
+        rests(rig)
+        button.dispatch_event("pointerdown", about)
+        page.evaluate(TILT, [40, 0])
+        page.evaluate(TILT, [10, 0])
+        drives(rig)
         assert page.evaluate("window.awake") == 1
         assert page.evaluate("window.felt") == []
         page.locator("#stop").dispatch_event("click")
@@ -342,8 +352,6 @@ def test_a_phone_drives_by_being_tilted_stays_awake_and_is_felt_when_driving_end
         button.dispatch_event("pointerup", about)
         page.locator("#release").click()
         expect(page.locator("#state")).to_have_text("idle")
-        page.evaluate(TILT, [-40, 0])
-        rests(rig)
 
 
 def test_a_computer_offers_no_tilting(browser: Browser, server: Process) -> None:
