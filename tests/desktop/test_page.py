@@ -257,6 +257,7 @@ def test_a_parameter_is_changed_by_a_slider_and_the_robot_has_the_last_word(
         page.keyboard.down("KeyW")
         drives(rig)
         expect(page.locator("#allowed")).to_contain_text("at most 0.50 m/s")
+        expect(page.locator("#forward-says")).to_have_text("0.15 m/s")  # 30 % of what it may
         page.keyboard.up("KeyW")
         rests(rig)
         speed.evaluate(SLIDE, most)

@@ -229,6 +229,8 @@ def test_a_handler_that_raises_ends_the_program_with_its_traceback(rig: Rig, nod
     assert raiser.ends() == 1
     assert "Traceback (most recent call last):" in raiser.text
     assert raiser.lines[-1] == "RuntimeError: cannot handle this"
+    files = re.findall(r'File "(.*?)"', raiser.text)
+    assert len(files) == 3, "the program, spin, and the program's handler"
 
 
 def test_a_timer_that_raises_ends_the_program_with_its_traceback(rig: Rig) -> None:
@@ -282,6 +284,36 @@ def test_a_program_that_fails_without_a_with_ends_as_any_other_does(rig: Rig, ti
     )
     assert program.ends() == 1
     assert program.lines[-1] == "ZeroDivisionError: division by zero"
+
+
+ONCE = """
+node = Node("once", robot={robot!r}, bus=BusSettings(connect=[{endpoint!r}], multicast=False))
+motors = node.publisher("cmd_vel", Twist)
+motors.publish(Twist.planar(linear=0.3))
+"""
+ONE_TIMER = """
+node = Node("once", bus=BusSettings(connect=[{endpoint!r}], multicast=False))
+
+@node.every(0.1)
+def turn() -> None:
+    raise AssertionError
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (ONCE, "what was said on cmd_vel held for "),
+        (ONE_TIMER, "turn() never ran: node.spin() runs what waits, and was not called"),
+    ],
+)
+def test_a_program_without_a_with_ends_in_order_and_is_told_what_was_in_vain(
+    rig: Rig, text: str, words: str
+) -> None:
+    where = text.format(robot=rig.robot, endpoint=rig.endpoint)
+    program = rig.program(f"from zteleop import BusSettings, Node, Twist\n{where}")
+    assert program.ends() == 0
+    assert f"once: warning: {words}" in program.text
 
 
 def test_a_program_is_told_of_a_source_that_its_robot_has_not(rig: Rig) -> None:

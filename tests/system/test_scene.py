@@ -1,6 +1,7 @@
 """A simulated robot in a scene: it stands before a wall, sees how far it is, and everybody is told."""
 
 import re
+import signal
 from collections.abc import Iterator
 
 import pytest
@@ -61,6 +62,23 @@ def test_it_stands_before_a_wall_and_drives_away_from_it(rig: Rig, sim: Process)
     assert sees(rig) > 0.2
     keys.type("q")
     assert keys.ends() == 0
+
+
+PROGRAM = """
+from zteleop import BusSettings, Node, Twist
+
+with Node("bold", robot={robot!r}, bus=BusSettings(connect=[{endpoint!r}], multicast=False)) as node:
+    motors = node.publisher("cmd_vel", Twist)
+    node.every(0.1)(lambda: motors.publish(Twist.planar(linear=0.5)))
+    node.spin()
+"""
+
+
+def test_a_program_that_drives_against_a_wall_is_told(rig: Rig, sim: Process) -> None:
+    program = rig.program(PROGRAM.format(robot=rig.robot, endpoint=rig.endpoint))
+    program.says("bold: warning: robot bench does not move on, says its sim: it stands at the brown wall")
+    program.signal(signal.SIGINT)
+    program.ends()
 
 
 @pytest.mark.parametrize(

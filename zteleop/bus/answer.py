@@ -90,6 +90,11 @@ class Answer:
             return f"robot {self._robot} is not heard"
         return self._words if clock.now() - self._at <= LASTS else ""
 
+    @property
+    def moves(self) -> bool:
+        """Whether what was said last is to move the robot, and is not refused."""
+        return self._moved > NEVER and not self.refused
+
     def miss(self) -> None:
         """Say that the robot has not been heard."""
         self._since, self._unheard, self._words = NEVER, True, ""

@@ -37,14 +37,14 @@ class Hearers:
     def _look(self) -> float:
         """Look at who has come; return when to look again."""
         while (sample := self._ring.try_recv()) is not None:
-            if sample.is_put and (one := presence.endpoint_of(sample.key)):
-                self._judge(one)
+            if sample.is_put and (ears := presence.endpoints_of(sample.key)):
+                self._judge(ears)
         return clock.now() + LOOK_EVERY
 
-    def _judge(self, one: presence.Endpoint) -> None:
-        heard = one.type, one.hash
-        if one.type != presence.ANY and heard not in self._said:
-            said, heard_as = told_apart(self._said[0], heard)
+    def _judge(self, ears: list[presence.Endpoint]) -> None:
+        one = ears[0]
+        if one.type != presence.ANY and not any((ear.type, ear.hash) in self._said for ear in ears):
+            said, heard_as = told_apart(self._said[0], (one.type, one.hash))
             where = f"{one.node} on {one.process}"
             self._tell(f"{self._name}: {where} hears {heard_as} alone, and drops what is said here, {said}")
 

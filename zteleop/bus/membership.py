@@ -1,8 +1,10 @@
 """What a node is made of: a place on the bus, a loop, and ears for the robots that it commands."""
 
+import os
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from types import TracebackType
 from typing import Any, TypeVar
 
 from zteleop.bus import clock, codec, presence
@@ -19,6 +21,7 @@ from zteleop.messages import Beat, Message, Refusals, Vehicle
 
 T = TypeVar("T")
 _GLANCE = 0.01
+_INSIDES = os.path.dirname(__file__)
 
 
 class Membership:
@@ -109,7 +112,11 @@ class Membership:
             raise BusError(f"node {self._node} is closed; spin inside its `with`")
         self.has_spun = True
         with self.handling():
-            self.loop.run(None if seconds is None else clock.now() + seconds)
+            try:
+                self.loop.run(None if seconds is None else clock.now() + seconds)
+            except Exception as error:
+                error.__traceback__ = _of_program(error.__traceback__)
+                raise
 
     def beside(self, look: Callable[[], float]) -> None:
         """Look in a thread, and again when it says, until the node closes: for who waits without a loop."""
@@ -152,6 +159,13 @@ class Membership:
             yield
         finally:
             self._handles = outer
+
+
+def _of_program(trace: TracebackType | None) -> TracebackType | None:
+    """Return a traceback from the program's own line on: what is between `spin` and that says nothing."""
+    while trace and trace.tb_next and trace.tb_frame.f_code.co_filename.startswith(_INSIDES):
+        trace = trace.tb_next
+    return trace
 
 
 def _keep_quiet(text: str) -> None:

@@ -1,11 +1,13 @@
 """A node: a name on the bus, with publishers, subscriptions and timers, single-threaded for its user."""
 
+import atexit
+import os
+import sys
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 from zteleop.bus import presence, rclpy_names, times
-from zteleop.bus.answer import Answer
-from zteleop.bus.heard import HEARD_WITHIN
+from zteleop.bus.commands import Commands
 from zteleop.bus.hearers import Hearers
 from zteleop.bus.log import LEVELS, NodeLog
 from zteleop.bus.membership import Membership
@@ -19,12 +21,9 @@ from zteleop.bus.speakers import Speakers
 from zteleop.bus.subscription import Received, Subscription
 from zteleop.bus.topics import topic_of
 from zteleop.bus.types import SERVICE, OwnTypes, Types, kinds_of
-from zteleop.control.proof import Prover
-from zteleop.control.settings import INPUTS
 from zteleop.errors import ConfigError
 from zteleop.interfaces.parameters import Value
 from zteleop.machine import signals, stderr
-from zteleop.machine.ids import new_id
 from zteleop.messages import GetTypeRequest, GetTypeResponse, Log, Message, service_type
 
 M = TypeVar("M", bound=Message)
@@ -48,17 +47,17 @@ class Node:
         *,
         session: Session | None = None,
     ) -> None:
-        self._commands: list[Publisher[Any]] = []
         self._waits_for_spin = ""  # what a program that never spins does in vain
         self.name = chunk(name, "a node's name")
         self.robot = robot_name(robot) if robot else None
-        self._hint = "" if bus or session else READS_NO_FILE
+        hint = "" if bus or session else READS_NO_FILE
         session = session or open_session(bus or BusSettings())
         try:
             # the insides, for whoever needs the session, the loop, or what is heard of robots
             self.membership = Membership(self.name, self.robot, session, self._complain)
             self._services = Services(session, self.name, self.membership.loop, self._complain)
             self.log = NodeLog(self.name, self._say, stderr.tell)
+            self._commands = Commands(self.name, self.membership, self.log, hint)
             self._log_publisher: Publisher[Log] | None = None
             self._parameters = Parameters(self.log.info)
             self._types = OwnTypes(self._serve_types)
@@ -69,6 +68,7 @@ class Node:
         except BaseException:
             session.close()
             raise
+        atexit.register(self._end_with_program, os.getpid())
 
     def __enter__(self) -> Self:
         self._undo_signals = signals.unwind()
@@ -76,18 +76,26 @@ class Node:
 
     def __exit__(self, error: type[BaseException] | None, *exc: object) -> None:
         try:
-            if self._waits_for_spin and not error and not self.membership.has_spun:
-                self.log.warn(f"{self._waits_for_spin}: node.spin() runs what waits, and was not called")
-            self.close()
+            self._leave(failed=error is not None)
         finally:
             self._undo_signals()
 
+    def _end_with_program(self, process: int) -> None:
+        """Leave in order, as a program ends that has no `with`; not as a copy of it does."""
+        if os.getpid() == process:
+            self._leave(failed=hasattr(sys, "last_value"))
+
+    def _leave(self, failed: bool) -> None:
+        if self._waits_for_spin and not failed and not self.membership.has_spun:
+            self.log.warn(f"{self._waits_for_spin}: node.spin() runs what waits, and was not called")
+        self.close()
+
     def close(self) -> None:
         """Let go of every robot and leave the bus: others see this node go, and its threads end."""
+        atexit.unregister(self._end_with_program)
         self._waits_for_spin = ""
         try:
-            for commands in self._commands:
-                commands.leave(tell_brief=not self.membership.has_spun)
+            self._commands.leave()
         finally:
             self.membership.close()
             stderr.flush()
@@ -97,25 +105,23 @@ class Node:
 
         What moves before that has begun too early to drive it. A publisher of commands waits likewise.
         """
-        return self._await(self.membership.own_robot())
-
-    def _await(self, robot: str) -> bool:
-        words = f"waits for robot {robot}, {HEARD_WITHIN:g} s at most; is its actuator on?"
-
-        def tell() -> None:
-            here = presence.here(self.membership.session, robot)
-            self.log.info(f"{words} {here} (zteleop node list shows who is there){self._hint}")
-
-        return self.membership.heard(robot).wait(tell)
+        return self._commands.await_robot(self.membership.own_robot())
 
     def publisher(
-        self, topic: str, types: Types[M], *, source: str = PROGRAM, wait: bool = True
+        self, topic: str, types: Types[M], *queue: object, source: str = PROGRAM, wait: bool = True
     ) -> Publisher[M]:
         """Return what says messages on a topic; on a command topic, as a source of that kind.
 
         For a command it first waits for the robot, as `await_robot` does, unless told not to.
-        Raises ConfigError when the topic's name is none, or the topic takes other types.
+        Raises ConfigError when the topic's name is none, or the topic takes other types; and for the
+        length of a queue, which rclpy wants and nobody keeps here.
         """
+        if queue:
+            found = ", ".join(map(repr, queue))
+            raise ConfigError(
+                f"publisher(topic, type) keeps no queue, found {found:.40}: who hears says depth=, "
+                "in node.subscription or node.on"
+            )
         name, kinds = resolve(topic, self.robot), kinds_of(types)
         about = topic_of(name.path)
         if about.types and not set(kinds) <= set(about.types):
@@ -127,7 +133,9 @@ class Node:
             Hearers(self.membership.session, name, kinds, self.log.warn).watch(self.membership.loop)
         if not about.command:
             return Publisher(self.membership.outlet(name, kinds, about.urgent), kinds)
-        return self._command_publisher(name, kinds, source, wait, as_typed(topic, name.robot))
+        if name.path == about.name:
+            name = Name(name.robot, f"{about.name}/{chunk(source, 'a source')}")
+        return self._commands.publisher(name, kinds, source, wait, as_typed(topic, name.robot))
 
     def _notice_typo(self, topic: str, words: str) -> None:
         """Ask whoever names a topic that is nearly a known one; not who writes the robot's name as well."""
@@ -136,43 +144,13 @@ class Node:
         if not is_meant and (near := known_as(name.path)):
             self.log.warn(f"{words.format(topic)}; did you mean {near}?")
 
-    def _command_publisher(
-        self, name: Name, kinds: tuple[type[M], ...], source: str, wait: bool, said: str
-    ) -> Publisher[M]:
-        """Return a sender of commands, which proves that each is new and hears whether it is obeyed."""
-        about = topic_of(name.path)
-        if name.path == about.name:
-            name = Name(name.robot, f"{about.name}/{chunk(source, 'a source')}")
-        heard = self.membership.heard(name.robot)
-        found = self._await(name.robot) if wait else True
-        sender = new_id()
-        is_program = source not in INPUTS
-        answer = Answer(f"{sender:x}", said, name.robot, heard, self.log, self._hint, is_program)
-        if not found:
-            answer.miss()
-        elif wait and (words := presence.unknown_source(self.membership.session, name)):
-            self.log.warn(words)
-        self.membership.session.declare_token(presence.sender_key(name.robot, sender, self.name))
-        publisher = Publisher[M](
-            self.membership.outlet(name, kinds, about.urgent),
-            kinds,
-            Prover(sender),
-            self.membership.echo(heard),
-            self.membership.listen_now,
-            answer,
-        )
-        self._commands.append(publisher)
-        if is_program:
-            self.membership.beside(answer.look)
-        return publisher
-
     def subscription(
         self,
         topic: str,
         types: Types[M],
         handler: Callable[[Received[M]], object] | None = None,
-        *,
         depth: int | None = None,
+        *,
         complain: bool = True,
     ) -> Subscription[M]:
         """Return an inbox of a topic; of a command topic, from all its sources.
@@ -191,7 +169,7 @@ class Node:
         return inbox
 
     def on(
-        self, topic: str, types: Types[M], *, depth: int | None = None
+        self, topic: str, types: Types[M], depth: int | None = None
     ) -> Callable[[Callable[[M], object]], Callable[[M], object]]:
         """Decorate a function to handle each message of a topic in `spin`; of one nobody says, it tells."""
 

@@ -6,8 +6,8 @@
     robot/<robot>/live/param/<node>/<process>                     what has parameters
     robot/<robot>/live/srv/<node>/<process>/<type>/<service...>
 
-A type's slashes are dots, and one that does not come with zteleop has a hash of its fields behind a `~`; a
-process is its host and number. Zenoh removes a token with its process.
+A type's slashes are dots, and one that does not come with zteleop has a hash of its fields behind a `~`; of
+several a comma is between. A process is its host and number. Zenoh removes a token with its process.
 """
 
 import os
@@ -31,11 +31,13 @@ RECORDER = "blackbox"
 DEPARTURES = 100
 PUBLICATIONS = 1000
 ROBOTS = 1000
+TYPES = 10
+"""of one node on one topic that are remembered: anybody may declare anything"""
 _ACTUATORS = "robot/*/live/node/actuator/*"
 
 
 class Endpoint(NamedTuple):
-    """One node's part in one topic."""
+    """One node's part in one topic, with one of the types that it says or hears there."""
 
     robot: str
     kind: str
@@ -131,9 +133,8 @@ def _path(key: str) -> str | None:
 
 
 def endpoint_key(name: Name, kind: Kind, node: str, types: Iterable[type[Message]]) -> str:
-    first = next(iter(types), None)
-    ros_type = "~".join(filter(None, type_of(first))).replace("/", ".") if first else ANY
-    return f"robot/{name.robot}/live/{kind}/{node}/{process()}/{ros_type}/{name.path.replace('*', '+')}"
+    told = ",".join("~".join(filter(None, type_of(one))).replace("/", ".") for one in types) or ANY
+    return f"robot/{name.robot}/live/{kind}/{node}/{process()}/{told}/{name.path.replace('*', '+')}"
 
 
 def type_of(kind: type[Message]) -> tuple[str, str]:
@@ -242,18 +243,19 @@ def _endpoints(session: Session, kind: str) -> list[Endpoint]:
 
 def _endpoints_in(keys: Iterable[str], *kinds: str) -> list[Endpoint]:
     wanted = [f"/live/{kind}/" for kind in kinds]
-    found = {endpoint_of(key) for key in keys if any(part in key for part in wanted)}
-    return sorted(one for one in found if one and one.kind in kinds)
+    found = {one for key in keys if any(part in key for part in wanted) for one in endpoints_of(key)}
+    return sorted(one for one in found if one.kind in kinds)
 
 
-def endpoint_of(key: str) -> Endpoint | None:
-    """Return what a token stands for; None where it is no node's part in a topic."""
+def endpoints_of(key: str) -> list[Endpoint]:
+    """Return what a token stands for, once for each type; nothing where it is no node's part in a topic."""
     parts = key.split("/", 7)
     if len(parts) < 8 or not key.isprintable():
-        return None
-    _, robot, _, kind, node, where, ros_type, topic = parts
-    ros_type, _, digest = ros_type.partition("~")
-    return Endpoint(robot, kind, node, where, ros_type.replace(".", "/"), topic.replace("+", "*"), digest)
+        return []
+    _, robot, _, kind, node, where, types, topic = parts
+    apart = (ros_type.replace(".", "/").partition("~") for ros_type in types.split(",")[:TYPES])
+    topic = topic.replace("+", "*")
+    return [Endpoint(robot, kind, node, where, ros_type, topic, digest) for ros_type, _, digest in apart]
 
 
 def _tokens(session: Session, selector: str) -> set[str]:

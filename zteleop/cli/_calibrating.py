@@ -34,7 +34,7 @@ START = 10.0
 READY = " obeys"
 """what an actuator says that has the robot to itself"""
 KNOWN = (
-    "the motor's neutral is known: the robot starts anew with it, two seconds or so; "
+    "the motor's neutral is known, {ticks} ticks: the robot starts anew with it, two seconds or so; "
     "if a wheel turns then, q ends that"
 )
 SLOW = 0.1
@@ -66,7 +66,7 @@ def find_out(
             return None
         if measuring.is_done:
             break
-        print(KNOWN, file=sys.stderr, flush=True)
+        print(KNOWN.format(ticks=round(measuring.neutral_us / settings.tick_us)), file=sys.stderr, flush=True)
         measuring.go_on()
     try:
         return measuring.servos()

@@ -47,7 +47,7 @@ def disagreements(members: Iterable[Endpoint]) -> Iterator[str]:
     agreed = True
     for node, where, ros_type, digest in sorted(speakers):
         for ear, there, wanted, its in sorted(hearers):
-            if (ros_type, digest) != (wanted, its):
+            if (ear, there, ros_type, digest) not in hearers:
                 agreed = False
                 said, heard = told_apart((ros_type, digest), (wanted, its))
                 yield f"{node} on {where} says {said}; {ear} on {there} hears {heard} alone, and drops it"

@@ -89,6 +89,7 @@ def keep(file: SettingsFile, changes: Changes, dry_run: bool) -> None:
     there = bool(file.text)
     file.write(text)
     print("\n".join(pulses_told(file.settings, after)))
-    print(f"{file.path} is written" + (f"; as it was before it is {file.backup}" if there else ""))
+    before = f"; as it was before it is {file.backup}" if there else ", which is new"
+    print(f"{file.path} is written{before}")
     if after.driver == "simulated":
         print('driver is "simulated": on the car, say driver = "pca9685"')

@@ -1,6 +1,7 @@
 import argparse
 import sys
 from collections.abc import Iterable
+from datetime import UTC, datetime
 from os import environ
 
 from zteleop.bus import clock, codec
@@ -9,7 +10,7 @@ from zteleop.bus.presence import who_is_here
 from zteleop.cli import _options
 from zteleop.cli._listening import TELL_AFTER, Arrival, listening
 from zteleop.errors import MessageError
-from zteleop.messages import Log
+from zteleop.messages import Log, Time
 from zteleop.terminal.capabilities import wants_color
 
 EXAMPLES = (
@@ -63,7 +64,10 @@ def lines(arrival: Arrival, least: int, nodes: Iterable[str], color: bool) -> It
         return
     if isinstance(said, Log) and said.level >= least and (not nodes or said.name in nodes):
         level = next((word for word, number in LEVELS.items() if number == said.level), f"{said.level}")
-        text = printable(
-            f"[{level.upper()}] [{said.stamp.sec}.{said.stamp.nanosec:09}] [{said.name}]: {said.msg}"
-        )
+        text = printable(f"[{level.upper()}] [{clock_of(said.stamp)}] [{said.name}]: {said.msg}")
         yield f"\x1b[{COLORS[said.level]}m{text}\x1b[0m" if color and said.level in COLORS else text
+
+
+def clock_of(stamp: Time) -> str:
+    """Return a moment as the clock of whoever reads it shows it."""
+    return f"{datetime.fromtimestamp(stamp.sec, UTC).astimezone():%H:%M:%S}.{stamp.nanosec // 1_000_000:03}"

@@ -1,6 +1,9 @@
 import argparse
+import sys
+from collections.abc import Iterable
 
 from zteleop.bus.escape import printable
+from zteleop.bus.presence import Member
 from zteleop.cli import _options
 from zteleop.cli._graph import graph
 from zteleop.errors import BusError
@@ -25,3 +28,14 @@ def run(arguments: argparse.Namespace) -> None:
     if not nodes:
         raise BusError(found.nobody(arguments.robot))
     print(printable("\n".join(f"/{node.robot}/{node.node}" for node in nodes), keep="\n"))
+    for name, where in namesakes(nodes).items():
+        words = f"{len(where)} nodes are called {name}, on {' and '.join(where)}; of a question one answers"
+        print(printable(f"zteleop node list: warning: {words}"), file=sys.stderr)
+
+
+def namesakes(nodes: Iterable[Member]) -> dict[str, list[str]]:
+    """Return the names that several nodes have, and on which processes those are."""
+    found = dict[str, list[str]]()
+    for one in nodes:
+        found.setdefault(f"/{one.robot}/{one.node}", []).append(one.process)
+    return {name: where for name, where in found.items() if len(where) > 1}

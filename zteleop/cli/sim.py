@@ -28,6 +28,10 @@ SPEAKS_WITHIN = 1.0
 TELL_AFTER = 1.0
 """s until it says that nobody moves it"""
 ROUNDED = 1.01
+OTHER_CHIP = (
+    'these settings say driver = "{driver}": an actuator with them moves that chip, and nothing here; '
+    "start zteleop actuator --driver simulated --robot {robot}"
+)
 LOST_AFTER = 1.0
 """s without a beat, of twenty a second, after which nobody does any more"""
 
@@ -77,6 +81,8 @@ def run(arguments: argparse.Namespace) -> None:
         driver = settings.driver_settings("simulated", robot)
         _options.end_with_parent(arguments, node)
         node.log.info(f"moves {robot}, a simulated {kind}, by the pulses in {driver['path']}")
+        if settings.driver != "simulated":
+            node.log.warn(OTHER_CHIP.format(driver=settings.driver, robot=robot))
         unlimited = msgspec.structs.replace(settings.drive, limits=VEHICLES[kind].limits)
         node.every(TELL_AFTER)(Attendant(node, kind, to_vehicle(unlimited, 1.0), arguments.unknown).look)
         simulated = Simulated(

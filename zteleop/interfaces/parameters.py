@@ -18,6 +18,16 @@ _FIELDS = {
     ParameterValue.STRING_ARRAY: ("string_array_value", "String", str),
 }
 """by type: the field that counts, what ROS's command line calls it, and Python's type"""
+_SUCH_AS = {
+    ParameterValue.BOOL: "true",
+    ParameterValue.INTEGER: "3",
+    ParameterValue.DOUBLE: "0.3",
+    ParameterValue.BOOL_ARRAY: "[true, false]",
+    ParameterValue.INTEGER_ARRAY: "[1, 2]",
+    ParameterValue.DOUBLE_ARRAY: "[0.1, 0.2]",
+    ParameterValue.STRING_ARRAY: "[left, right]",
+}
+"""what to write, of the types that not every text is"""
 
 
 def kind_of(value: Value) -> int:
@@ -79,5 +89,6 @@ def fit(value: Any, kind: int) -> Any:
     if isinstance(value, list) and not value and kind >= ParameterValue.BYTE_ARRAY:
         return value
     if kind_of(value) != kind:
-        raise MessageError(f"expected {type_words(kind)}, found {value!r:.80}")
+        example = f", such as {_SUCH_AS[kind]}" if kind in _SUCH_AS else ""
+        raise MessageError(f"expected {type_words(kind)}{example}, found {value!r:.80}")
     return value

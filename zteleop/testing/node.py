@@ -161,7 +161,9 @@ class FakeNode:
     def await_robot(self) -> bool:
         return True
 
-    def publisher(self, topic: str, types: object, *, source: str = "program", wait: bool = True) -> Said:
+    def publisher(
+        self, topic: str, types: object, *queue: object, source: str = "program", wait: bool = True
+    ) -> Said:
         return self.said.setdefault(topic, Said(f"{topic}/{source}", sender=f"{len(self.said) + 1:x}"))
 
     def subscription(
@@ -169,8 +171,8 @@ class FakeNode:
         topic: str,
         types: object,
         handler: Callable[[Any], object] | None = None,
-        *,
         depth: int | None = None,
+        *,
         complain: bool = True,
     ) -> Inbox:
         inbox = self.inboxes.setdefault(topic, Inbox())
@@ -178,7 +180,7 @@ class FakeNode:
         return inbox
 
     def on(
-        self, topic: str, types: object, *, depth: int | None = None
+        self, topic: str, types: object, depth: int | None = None
     ) -> Callable[[Callable[[Any], object]], Callable[[Any], object]]:
         def decorate(function: Callable[[Any], object]) -> Callable[[Any], object]:
             self.subscription(topic, types, lambda received: function(received.message), depth=depth)

@@ -477,3 +477,15 @@ def test_who_stood_still_while_he_was_refused_is_refused_still(sender: Sender) -
     sender.heard.awake_since = sender.clock.time
     sender.say(beats=True)
     assert not [line for line in sender.news if "no longer refused" in line]
+
+
+def test_it_moves_while_motion_is_asked_for_and_not_refused(sender: Sender) -> None:
+    assert not sender.answer.moves
+    sender.say()
+    assert sender.answer.moves
+    sender.refuse()
+    sender.say()
+    assert not sender.answer.moves
+    sender.say(LASTS + 0.2)
+    sender.say(moving=False)
+    assert not sender.answer.moves

@@ -70,6 +70,14 @@ def test_of_who_hears_it_nothing_is_told_nor_of_what_is_no_token(clock: Clock, t
     assert desk.told == []
 
 
+def test_who_hears_what_is_said_and_more_is_told_of_to_nobody(clock: Clock) -> None:
+    desk = Desk(clock, String)
+    desk.comes(key("ear", "std_msgs.msg.Bool,std_msgs.msg.String"))
+    desk.waits(FIRST_LOOK)
+    desk.loop.close()
+    assert desk.told == []
+
+
 def test_a_type_of_ones_own_is_another_where_its_fields_are(clock: Clock) -> None:
     own = presence.endpoint_key(CHATTER, "sub", "ear", [Soil])
     assert own.split("/")[6].startswith("acme_msgs.msg.Soil~")

@@ -141,6 +141,12 @@ def test_a_program_that_failed_is_told_of_nothing_else(session: Session) -> None
     assert lines == []
 
 
+def test_a_queue_of_rclpy_is_told_where_it_belongs(node: Node) -> None:
+    with pytest.raises(ConfigError, match=r"^publisher\(topic, type\) keeps no queue, found 10: who hears"):
+        node.publisher("note", String, 10)
+    node.subscription("note", String, print, 10)
+
+
 def test_with_leaves_the_bus(session: Session) -> None:
     def fail() -> None:
         with Node("nose", session=session):
@@ -244,6 +250,7 @@ def test_what_a_node_publishes_and_hears_is_told(node: Node, session: Session) -
         ("pub", "nose", "rcl_interfaces/msg/Log", "log"),
         ("pub", "nose", "nav_msgs/msg/Odometry", "odom"),
         ("sub", "nose", "geometry_msgs/msg/TwistStamped", "cmd_vel/**"),
+        ("sub", "nose", "geometry_msgs/msg/Twist", "cmd_vel/**"),
     }
 
 
@@ -418,8 +425,8 @@ def test_what_goes_wrong_beside_a_node_that_is_open_is_told(
     assert len(told) == 1
 
 
-@pytest.mark.parametrize(("source", "looks"), [("program", 1), ("planner", 1), ("keyboard", 0)])
-def test_somebody_looks_after_a_program_that_falls_silent_and_after_no_operator(
+@pytest.mark.parametrize(("source", "looks"), [("program", 2), ("planner", 2), ("keyboard", 0)])
+def test_somebody_looks_after_a_program_and_after_no_operator(
     node: Node, monkeypatch: pytest.MonkeyPatch, source: str, looks: int
 ) -> None:
     besides: list[object] = []

@@ -15,22 +15,26 @@ from zteleop.messages import Message, Pwm, Twist, TwistStamped
 @pytest.mark.parametrize(
     ("name", "types", "told"),
     [
-        (resolve("archangel/odom", None), (), ("any", "odom")),
-        (resolve("archangel/pwm/web", None), (Pwm,), ("zteleop_msgs/msg/Pwm", "pwm/web")),
+        (resolve("archangel/odom", None), (), [("any", "odom")]),
+        (resolve("archangel/pwm/web", None), (Pwm,), [("zteleop_msgs/msg/Pwm", "pwm/web")]),
         (
             Name("archangel", "cmd_vel/**"),
             (TwistStamped, Twist),
-            ("geometry_msgs/msg/TwistStamped", "cmd_vel/**"),
+            [("geometry_msgs/msg/Twist", "cmd_vel/**"), ("geometry_msgs/msg/TwistStamped", "cmd_vel/**")],
         ),
     ],
 )
 def test_what_a_node_tells_of_itself_is_read_back(
-    kind: presence.Kind, name: Name, types: tuple[type[Message], ...], told: tuple[str, str]
+    kind: presence.Kind, name: Name, types: tuple[type[Message], ...], told: list[tuple[str, str]]
 ) -> None:
     key = presence.endpoint_key(name, kind, "nose", types)
-    assert presence.endpoints(Session([key])) == [
-        Endpoint("archangel", kind, "nose", presence.process(), *told)
-    ]
+    where = "archangel", kind, "nose", presence.process()
+    assert presence.endpoints(Session([key])) == [Endpoint(*where, *one) for one in told]
+
+
+def test_of_too_many_types_the_first_are_remembered() -> None:
+    key = "robot/abe/live/pub/nose/pi-7/" + ",".join(f"a.msg.T{number}" for number in range(99)) + "/soil"
+    assert [one.type for one in presence.endpoints_of(key)] == [f"a/msg/T{n}" for n in range(presence.TYPES)]
 
 
 def test_no_token_is_a_wildcard() -> None:

@@ -142,6 +142,14 @@ def test_who_disagree_about_a_type_are_told_by_name(
     assert list(disagreements(members)) == told
 
 
+def test_who_hears_one_of_several_types_drops_the_others_and_who_hears_all_drops_none() -> None:
+    said = [typed("pub", "nose", "a/msg/Soil", "11"), typed("pub", "nose", "std_msgs/msg/String", "")]
+    ear = [typed("sub", "ear", one.type, one.hash) for one in said]
+    assert list(disagreements([*said, *ear])) == []
+    (words,) = disagreements([*said, *ear[:1]])
+    assert words.startswith("nose on pi-7 says std_msgs/msg/String; ear on pi-7 hears a/msg/Soil alone")
+
+
 def test_two_who_publish_one_topic_in_two_ways_are_told_where_nobody_hears_it() -> None:
     members = [typed("pub", "nose", "a/msg/Soil", "11"), typed("pub", "toe", "a/msg/Soil", "22")]
     assert list(disagreements(members)) == ["nose on pi-7 says a/msg/Soil 11; toe on pi-7 says 22"]

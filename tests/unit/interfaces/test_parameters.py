@@ -60,12 +60,12 @@ def test_a_whole_number_is_a_double_too(value: Any, kind: int, found: Any) -> No
 @pytest.mark.parametrize(
     ("value", "kind", "words"),
     [
-        (1.5, ParameterValue.INTEGER, "expected integer, found 1.5"),
-        (True, ParameterValue.INTEGER, "expected integer, found True"),
-        (True, ParameterValue.DOUBLE, "expected double, found True"),
-        ("1", ParameterValue.DOUBLE, "expected double, found '1'"),
-        ([1.5], ParameterValue.INTEGER_ARRAY, r"expected integer array, found \[1.5\]"),
-        ([], ParameterValue.INTEGER, r"expected integer, found \[\]"),
+        (1.5, ParameterValue.INTEGER, "expected integer, such as 3, found 1.5"),
+        (True, ParameterValue.INTEGER, "expected integer, such as 3, found True"),
+        (True, ParameterValue.DOUBLE, "expected double, such as 0.3, found True"),
+        ("1", ParameterValue.DOUBLE, "expected double, such as 0.3, found '1'"),
+        ([1.5], ParameterValue.INTEGER_ARRAY, r"expected integer array, such as \[1, 2\], found \[1.5\]"),
+        ([], ParameterValue.INTEGER, r"expected integer, such as 3, found \[\]"),
     ],
 )
 def test_a_value_of_another_type_is_refused(value: Any, kind: int, words: str) -> None:

@@ -7,7 +7,7 @@ from zteleop.bridges.web.slots import Slots
 from zteleop.bridges.web.words import Graph, Topic, text
 from zteleop.bus import clock
 from zteleop.bus.node import Node
-from zteleop.bus.presence import Endpoint, Kind, Tokens, endpoint_of
+from zteleop.bus.presence import Endpoint, Kind, Tokens, endpoints_of
 from zteleop.bus.topics import topic_of
 
 MOST = 1000
@@ -60,7 +60,7 @@ class Company:
         if not self._lookers:
             return
         keys = self._tokens.there() if self._tokens else ()
-        parts = [part for part in map(endpoint_of, keys) if part and "*" not in part.topic]
+        parts = [part for key in keys for part in endpoints_of(key) if "*" not in part.topic]
         said = sum((said for _, said in self._seconds), Counter())
         seconds = max(clock.now() - self._seconds[0][0], COUNT_EVERY)
         names = {topic_of(part.topic).name for part in parts if part.kind in ("pub", "sub")} | {*said}

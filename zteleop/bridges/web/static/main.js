@@ -76,7 +76,7 @@ function stick() {
   if (now.deadman) phone.stayAwake();
   at("stick").dataset.held = String(now.deadman && obeyed());
   knob(-now.turn, -now.drive);
-  return { ...now, drive: now.drive * share("forward"), turn: now.turn * share("turning") };
+  return { ...now, drive: now.drive * share("forward") * allowed(), turn: now.turn * share("turning") };
 }
 
 /** @returns {boolean} whether the robot does what this very page holds */
@@ -243,16 +243,22 @@ function note(words, alarm) {
 
 /**
  * @param {string} id of a slider
- * @returns {number} how much of what the robot can a full stick asks for
+ * @returns {number} how much of what the robot may a full stick asks for
  */
 function share(id) {
   return Number(/** @type {HTMLInputElement} */ (at(id)).value) / 100;
 }
 
+/** @returns {number} how much of the speed that the robot can it may drive now: a slider ends there */
+function allowed() {
+  const { max_speed, allowed_speed } = known.vehicle || { max_speed: 0, allowed_speed: 0 };
+  return max_speed > 0 ? Math.min(1, allowed_speed / max_speed) : 1;
+}
+
 /** Say beside the sliders what a full stick asks for. */
 function speeds() {
   if (!known.vehicle) return;
-  show("forward-says", `${(share("forward") * known.vehicle.max_speed).toFixed(2)} m/s`);
+  show("forward-says", `${(share("forward") * allowed() * known.vehicle.max_speed).toFixed(2)} m/s`);
   show("turning-says", `${(share("turning") * known.vehicle.max_turn).toFixed(2)} rad/s`);
 }
 
