@@ -44,7 +44,7 @@ def goes_on(verb: str, words: list[str]) -> bool:
     """Say whether a command ends only when it is told to."""
     if verb in ("echo", "pub", "watchdog", "latency"):
         return not {"--once", "--times", "--count", "-t", "--for"} & set(words)
-    endless = ("actuator", "buttons", "sim", "odometry", "hz", "bw", "delay", "watch", "log", "web")
+    endless = ("actuator", "buttons", "sim", "odometry", "camera", "hz", "bw", "delay", "watch", "log", "web")
     return verb in endless or words == ["up"]
 
 

@@ -12,6 +12,7 @@ import pytest
 from zteleop import chaos, drivers
 from zteleop.bus import codec
 from zteleop.bus.topics import TOPICS, Topic, topic_of
+from zteleop.cameras import CAMERAS, Source, Wanted, sources
 from zteleop.chaos.fault import Fault
 from zteleop.cli import VERBS, main
 from zteleop.control.stick import Speeds, Stick
@@ -107,6 +108,12 @@ def test_a_chip(room: Room, monkeypatch: pytest.MonkeyPatch) -> None:
     assert chip.read([1, 2]) == {1: None, 2: 1500.0}
     with pytest.raises(drivers.ConfigError, match=r"drivers.pins.pins: expected a whole number, found"):
         open_driver("pins", {"pins": "three"})
+
+
+def test_a_kind_of_camera(monkeypatch: pytest.MonkeyPatch) -> None:
+    bird = Source("what a bird sees", ("fly", "high"))
+    monkeypatch.setitem(CAMERAS, "bird", lambda device, wanted: iter([bird]))
+    assert sources("bird", Wanted()) == [bird]
 
 
 class Bell(Message):

@@ -29,8 +29,9 @@ class Way:
         self._busy_until = 0.0
 
     @property
-    def full(self) -> bool:
-        return self._weight >= QUEUE
+    def weight(self) -> int:
+        """How many bytes are on their way."""
+        return self._weight
 
     def carry(self, now: float, delay: float, rate: float | None) -> None:
         """Take what was said; it arrives after a delay, and no faster than `rate` bytes a second."""
@@ -57,12 +58,13 @@ class Cable:
     What is said while it is cut waits until it is mended, as in a network that sends again; nobody is told.
     """
 
-    def __init__(self, target: Path | int, place: Path | int = 0) -> None:
+    def __init__(self, target: Path | int, place: Path | int = 0, queue: int = QUEUE) -> None:
         self.delay = 0.0
         """s, each way"""
         self.rate: float | None = None
         """bytes a second, each way"""
         self._target = target
+        self._queue = queue
         self._listener = _listen(place)
         self.port = 0 if isinstance(place, Path) else int(self._listener.getsockname()[1])
         self._ways: list[Way] = []
@@ -96,7 +98,7 @@ class Cable:
 
     def _run(self) -> None:
         while not self._ended.is_set():
-            ready = {w.source: w for w in self._ways if not (w.ended or w.full or w.forth in self._cut)}
+            ready = {w.source: w for w in self._ways if not self._holds(w)}
             heard = select.select([self._listener, *ready], [], [], LOOK)[0]
             now = time.monotonic()
             for end in heard:
@@ -104,6 +106,10 @@ class Cable:
             for way in self._ways:
                 if way.forth not in self._cut:
                     way.deliver(now)
+
+    def _holds(self, way: Way) -> bool:
+        """Say whether whoever speaks must wait."""
+        return way.ended or way.weight >= self._queue or way.forth in self._cut
 
     def _accept(self) -> None:
         here = self._listener.accept()[0]

@@ -19,6 +19,7 @@ VERBS = {
     "stop": "stop a robot until it is released",
     "sim": "move a simulated vehicle by the pulses of a simulated chip",
     "odometry": "say where a robot should be that has nothing else to say so",
+    "camera": "say what a robot's camera sees, as pictures",
     "list": "list the topics of every robot on the bus",
     "echo": "print what a topic says",
     "pub": "say something on a topic",

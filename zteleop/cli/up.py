@@ -22,7 +22,7 @@ EXAMPLES = (
 )
 NEEDS_TERMINAL = ("demo", "gamepad", "keyboard", "keys")
 PAUSES_NOTHING = "Ctrl-Z would pause nothing that it started, only who starts it again; Ctrl-C ends all of it"
-LEASHED = ("actuator", "odometry", "sim")
+LEASHED = ("actuator", "camera", "odometry", "sim")
 """verbs that end when whoever started them does"""
 COLORS = ("36", "33", "35", "32", "34")
 UNIT = """\
