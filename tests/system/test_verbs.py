@@ -98,7 +98,8 @@ def test_list_shows_types_and_who_is_there(rig: Rig) -> None:
     assert said.startswith(
         "Published topics:\n * /bench/beat [zteleop_msgs/msg/Beat] 1 publisher\n     actuator on "
     )
-    assert "\n * /bench/pwm [zteleop_msgs/msg/Pwm] " in heard
+    assert "\n * /bench/pwm [zteleop_msgs/msg/Pwm, std_msgs/msg/Int16MultiArray] 2 subscribers" in heard
+    assert len(re.findall("actuator on .*: pwm/web", heard)) == 1, "not once for each type"
     assert re.search(r" subscribers, also controls\n     actuator on [-\w]+: pwm/\w+\n", heard)
 
 

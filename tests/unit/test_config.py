@@ -151,6 +151,10 @@ def test_a_file_that_cannot_be_read_is_told(home: Path) -> None:
         ),
         ("a = ", "1: not TOML: nothing stands behind =; "),
         ("a = b", "1:5: not TOML: Invalid value (text needs quotes); "),
+        ('a = "b\nc = 1', "1:7: not TOML: a text ends with the quote that it begins with, found none; "),
+        ("a = 'b", "1: not TOML: a text ends with the quote that it begins with, found none; "),
+        ('a = "b', "1: not TOML: a text ends with the quote that it begins with, found none; "),
+        ("a = \u201cb\u201d", "1:5: not TOML: a text stands in \" or ', found \u201c; "),
         ("a = 1\na = 2", "2: not TOML: a is written twice; what else is wrong shows once this is right"),
         ("[a]\nb = 1\nb = 2\nc = 3", "3:6: not TOML: b is written twice; "),
         ("[drive]\n[drive.limits]\n[drive.limits]", "3:14: not TOML: [drive.limits] is written twice; "),
@@ -225,7 +229,7 @@ def test_a_mistake_that_looks_like_a_place_is_refused_all_the_same(text: str) ->
         ),
         (
             "[drive.servos.throttle]\nchannel = 3\n[drive.servos.steering]\nchannel = 3",
-            "1:2: drive.servos: each servo needs a channel of its own, found [3, 3]",
+            "1:2: drive.servos: each servo needs a channel of its own, found steering, throttle on channel 3",
         ),
     ],
 )

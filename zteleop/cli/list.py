@@ -6,6 +6,7 @@ from zteleop.bus.presence import Endpoint
 from zteleop.bus.session import open_session
 from zteleop.bus.topics import topic_of
 from zteleop.cli import _company, _options
+from zteleop.cli._graph import types_of
 from zteleop.errors import BusError
 
 EXAMPLES = (
@@ -51,12 +52,16 @@ def _with_people(endpoints: Iterable[Endpoint]) -> Iterator[str]:
             nodes = len({(one.node, one.process) for one in members})
             yield f" * {_line(name, members, True)} {nodes} {what}{'s'[: nodes - 1]}{also}"
             plain = topic_of(members[0].topic).name
-            for one in members:
-                yield f"     {one.node} on {one.process}{'' if one.topic == plain else f': {one.topic}'}"
+            people = (
+                f"     {one.node} on {one.process}{'' if one.topic == plain else f': {one.topic}'}"
+                for one in members
+            )
+            yield from dict.fromkeys(people)  # who says several types says each of them there
         if kind == "pub":
             yield ""
 
 
 def _line(name: str, members: list[Endpoint], show_types: bool) -> str:
-    types = sorted({member.type for member in members})
+    told = {member.type for member in members}
+    types = [one for one in types_of(members) if one in told] or sorted(told)
     return f"{name} [{', '.join(types)}]" if show_types else name

@@ -50,9 +50,14 @@ class DriveSettings(Struct, frozen=True, forbid_unknown_fields=True):
                 f"expected servos {_names(self.mixer.wheels)}, found {_names(self.servos)}; "
                 "what is written here replaces those built in"
             )
-        channels = [servo.channel for servo in self.servos.values()]
-        if len(set(channels)) < len(channels):
-            raise ValueError(f"each servo needs a channel of its own, found {channels}")
+        on: dict[int, list[str]] = {}
+        for name, servo in self.servos.items():
+            on.setdefault(servo.channel, []).append(name)
+        for channel, names in on.items():
+            if len(names) > 1:
+                raise ValueError(
+                    f"each servo needs a channel of its own, found {_names(names)} on channel {channel}"
+                )
         for name in self.mixer.wheels - self.mixer.driven:
             if self.servos[name].reverse != "direct":
                 raise ValueError(f"reverse is for what drives, found it at servos.{name}")

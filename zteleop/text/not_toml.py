@@ -3,6 +3,11 @@
 import re
 from typing import NamedTuple
 
+UNCLOSED = ("Illegal character '\\n'", 'Expected "\'"', "Unterminated string")
+"""what the parser says of a quote that nothing closes"""
+CURLY = "\u201c\u201d\u201e\u2018\u2019"
+"""which text programs make of quotes"""
+
 
 class NotToml(NamedTuple):
     """Where a parser stopped, as line or line:column, empty where it does not say; and why."""
@@ -25,6 +30,10 @@ def explained(error: str, text: str) -> NotToml:
         return NotToml(place, f"[{table}] is written twice")
     if words == "Cannot overwrite a value":
         return NotToml(place, f"{name or 'a name'} is written twice")
+    if words in UNCLOSED:
+        return NotToml(place, "a text ends with the quote that it begins with, found none")
+    if odd := next((quote for quote in CURLY if quote in written), ""):
+        return NotToml(place, f"a text stands in \" or ', found {odd}")
     if words == "Invalid value":
         return NotToml(place, f"{words} (text needs quotes)" if value else "nothing stands behind =")
     if re.match(r"[-+]?\d+,\d", value):

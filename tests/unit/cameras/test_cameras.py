@@ -31,10 +31,10 @@ def test_the_pis_camera_is_its_own_program() -> None:
 def test_without_a_name_every_camera_is_tried_and_nothing_that_is_none(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    there = [Path(f"/dev/video{number}") for number in (10, 1, 0)]
+    there = [Path(f"/dev/video{number}") for number in (10, 2, 0)]
     monkeypatch.setattr(Path, "glob", lambda folder, pattern: iter(there))
     shows = [source.shows for source in sources(None, WANTED)]
-    assert shows == ["the Pi's camera", *(f"/dev/video{n}" for n in (0, 0, 1, 1, 10, 10))]
+    assert shows == ["the Pi's camera", *(f"/dev/video{n}" for n in (0, 0, 2, 2, 10, 10))]
 
 
 def test_a_film_is_shown_again_and_again() -> None:

@@ -132,7 +132,7 @@ def test_a_tank_takes_twists_and_refuses_ticks() -> None:
         ),
         (
             {"servos": {"throttle": Servo(channel=3), "steering": Servo(channel=3)}},
-            r"each servo needs a channel of its own, found \[3, 3\]",
+            "each servo needs a channel of its own, found steering, throttle on channel 3",
         ),
     ],
 )
