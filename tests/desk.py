@@ -1,17 +1,26 @@
-"""A screen that nobody sees, a window on it, and fingers on the keys."""
+"""A screen that nobody sees, a window on it, and fingers on the keys; and a browser."""
 
 import os
+import re
+import shutil
 import subprocess
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
-from processes import descendants
+from playwright.sync_api import Browser, Page, expect, sync_playwright
+from processes import Process, descendants
 from rig import NEUTRAL, Rig, every, until
 
 QUIET = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
 CORNER = ("1020", "760")
 """of the screen, where no window is"""
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+WITHIN = 60_000
+"""ms that a browser may take on a machine that has much else to do"""
+SIZES = {"phone": (390, 844), "tablet": (820, 1180), "desktop": (1440, 900)}
+expect.set_options(timeout=WITHIN)
 CLASS = "desk"
 """what a program must call its window"""
 
@@ -101,3 +110,41 @@ def loses_the_focus(rig: Rig, here: Desk) -> None:
         assert rig.ticks == NEUTRAL, "the key is still down, and arms nothing"
     here.let_go("Up")
     here.drives_at_last("Up")
+
+
+@contextmanager
+def chromium(folder: Path) -> Iterator[Browser]:
+    """Yield a browser that leaves what it leaves in a folder."""
+    own = {**os.environ, "TMPDIR": str(folder)}
+    with sync_playwright() as player:
+        browser = player.chromium.launch(
+            executable_path=CHROMIUM, args=["--no-sandbox"], env=dict(own), timeout=WITHIN
+        )
+        yield browser
+        browser.close()
+
+
+@contextmanager
+def opened(
+    browser: Browser,
+    server: Process,
+    size: str = "desktop",
+    script: str = "",
+    state: str = "idle",
+    **about: Any,
+) -> Iterator[Page]:
+    """Open the address that the server has printed; nothing may be wrong in the page until it is closed."""
+    found = re.search(r"http://\S+", server.text)
+    assert found
+    wide, high = SIZES[size]
+    context = browser.new_context(viewport={"width": wide, "height": high}, **about)
+    context.add_init_script(script)
+    context.set_default_timeout(WITHIN)
+    page, wrong = context.new_page(), list[str]()
+    page.on("pageerror", lambda error: wrong.append(str(error)))
+    page.on("console", lambda said: wrong.append(said.text) if said.type == "error" else None)
+    page.goto(found[0])
+    expect(page.locator("#state")).to_have_text(state)
+    yield page
+    context.close()
+    assert wrong == []

@@ -1,23 +1,17 @@
 """The cockpit's page in a real browser: what is held there moves a real robot, and what is let go ends it."""
 
-import os
 import re
-import shutil
 import signal
 from collections.abc import Iterator
-from contextlib import contextmanager
-from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, Page, expect, sync_playwright
+from desk import CHROMIUM, SIZES, chromium, opened
+from playwright.sync_api import Browser, expect
 from processes import Process
 from rig import NEUTRAL, Rig, until
 
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 pytestmark = pytest.mark.skipif(not CHROMIUM, reason="not here: chromium (Debian: chromium)")
 STEERING, THROTTLE = 0, 1
-WITHIN = 60_000
-"""ms that a browser may take on a machine that has much else to do"""
 WATCH = """() => {
     window.said = "";
     const send = WebSocket.prototype.send;
@@ -34,8 +28,6 @@ KEYS = """kinds => {
     for (const kind of kinds) document.body.dispatchEvent(new KeyboardEvent(kind, about));
 }"""
 SLIDE = "(slider, value) => { slider.value = value; slider.dispatchEvent(new Event('change')); }"
-SIZES = {"phone": (390, 844), "tablet": (820, 1180), "desktop": (1440, 900)}
-expect.set_options(timeout=WITHIN)
 
 
 @pytest.fixture(scope="module")
@@ -55,34 +47,8 @@ def server(rig: Rig) -> Process:
 
 @pytest.fixture(scope="module")
 def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
-    own = {**os.environ, "TMPDIR": str(tmp_path_factory.mktemp("chromium"))}  # where it leaves what it leaves
-    with sync_playwright() as player:
-        opened = player.chromium.launch(
-            executable_path=CHROMIUM, args=["--no-sandbox"], env=dict(own), timeout=WITHIN
-        )
+    with chromium(tmp_path_factory.mktemp("chromium")) as opened:
         yield opened
-        opened.close()
-
-
-@contextmanager
-def opened(
-    browser: Browser, server: Process, size: str = "desktop", script: str = "", **about: Any
-) -> Iterator[Page]:
-    """Open the address that the server has printed; nothing may be wrong in the page until it is closed."""
-    found = re.search(r"http://\S+", server.text)
-    assert found
-    wide, high = SIZES[size]
-    context = browser.new_context(viewport={"width": wide, "height": high}, **about)
-    context.add_init_script(script)
-    context.set_default_timeout(WITHIN)
-    page, wrong = context.new_page(), list[str]()
-    page.on("pageerror", lambda error: wrong.append(str(error)))
-    page.on("console", lambda said: wrong.append(said.text) if said.type == "error" else None)
-    page.goto(found[0])
-    expect(page.locator("#state")).to_have_text("idle")
-    yield page
-    context.close()
-    assert wrong == []
 
 
 def drives(rig: Rig) -> None:

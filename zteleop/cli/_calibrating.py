@@ -4,7 +4,7 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from msgspec.structs import replace
 
@@ -16,7 +16,7 @@ from zteleop.cli._scratch import scratch
 from zteleop.cli._settings_file import SettingsFile, of_servos
 from zteleop.cli.neutral import bring_to_rest
 from zteleop.config import Config
-from zteleop.control.measuring import STEPS, Measuring, Step
+from zteleop.control.measuring import Measuring, Step
 from zteleop.control.servo import Servo
 from zteleop.drivers import open_driver
 from zteleop.errors import BusError, ConfigError
@@ -39,13 +39,20 @@ KNOWN = (
 )
 SLOW = 0.1
 """m/s at full throttle, as this robot is told: no limit of speed then keeps a motor from its end"""
-SOURCE = "keyboard"
 CREEP = SLOW / 1000
 """m/s: so little of a wide servo is within the dead zone of any motor"""
 
 
+class Seat(NamedTuple):
+    """Where somebody sits who answers: `sit` returns when a part is over, or he has left."""
+
+    source: str
+    """what his commands are said as, and nobody else turns anything"""
+    sit: Callable[[Node, Measuring], Tuner]
+
+
 def find_out(
-    file: SettingsFile, settings: Config, robot: str, steps: Sequence[Step] = STEPS
+    file: SettingsFile, settings: Config, robot: str, steps: Sequence[Step], seat: Seat
 ) -> dict[str, Servo] | None:
     """Return both servos as somebody found them in these steps; None when he left before the end.
 
@@ -55,12 +62,8 @@ def find_out(
     open_driver(settings.driver, chip).close()  # which fails where somebody else drives it
     measuring = Measuring(settings.drive.servos, settings.tick_us, steps)
     while True:
-        with running(file, settings, robot, measuring) as node:
-            tuner = Tuner(Typed(open_terminal()), measuring)
-            known = Dashboard(robot, "step", settings.speeds, bound=tuner.bound, steps=TICK)
-            drive_at_terminal(
-                node, settings, tuner, SOURCE, known, watch=seen_by(tuner), task=asked_by(tuner, measuring)
-            )
+        with running(file, settings, robot, measuring, seat.source) as node:
+            tuner = seat.sit(node, measuring)
         if tuner.gave_up:
             bring_to_rest(settings, settings.driver, robot)  # what was tried is not what the car knows
             return None
@@ -73,6 +76,19 @@ def find_out(
     except ValueError as error:
         bring_to_rest(settings, settings.driver, robot)
         raise ConfigError(f"what was found makes no car: {error}; nothing is written") from None
+
+
+def at_terminal(settings: Config) -> Seat:
+    """Return the seat before this terminal."""
+
+    def sit(node: Node, measuring: Measuring) -> Tuner:
+        tuner = Tuner(Typed(open_terminal()), measuring)
+        known = Dashboard(node.robot or "", "step", settings.speeds, bound=tuner.bound, steps=TICK)
+        task = asked_by(tuner, measuring)
+        drive_at_terminal(node, settings, tuner, "keyboard", known, watch=seen_by(tuner), task=task)
+        return tuner
+
+    return Seat("keyboard", sit)
 
 
 def seen_by(tuner: Tuner) -> Callable[[View], None]:
@@ -90,7 +106,9 @@ def asked_by(tuner: Tuner, measuring: Measuring) -> Callable[[], Task]:
 
 
 @contextmanager
-def running(file: SettingsFile, settings: Config, robot: str, measuring: Measuring) -> Iterator[Node]:
+def running(
+    file: SettingsFile, settings: Config, robot: str, measuring: Measuring, source: str
+) -> Iterator[Node]:
     """Run the actuator of the robot itself, with wide servos, and join the bus beside it."""
     from zteleop.terminal.hush import hushed  # which some systems have not, that are told so elsewhere
 
@@ -98,7 +116,7 @@ def running(file: SettingsFile, settings: Config, robot: str, measuring: Measuri
         quiet.enter_context(hushed())  # between two screens keys go on being pressed
         folder = stack.enter_context(scratch("zteleop-calibrate-"))
         log = stack.enter_context((folder / "log").open("w"))
-        (folder / "config.toml").write_text(wide(file, settings, robot, measuring), encoding="utf-8")
+        (folder / "config.toml").write_text(wide(file, settings, robot, measuring, source), encoding="utf-8")
         verb = ("actuator", "--config", str(folder / "config.toml"), "--robot", robot)
         process = stack.enter_context(leashed(verb, log, {}))
         beside = _options.beside_robot(replace(settings, robot=robot))
@@ -110,7 +128,7 @@ def running(file: SettingsFile, settings: Config, robot: str, measuring: Measuri
             stack.close()
 
 
-def wide(file: SettingsFile, settings: Config, robot: str, measuring: Measuring) -> str:
+def wide(file: SettingsFile, settings: Config, robot: str, measuring: Measuring, source: str) -> str:
     """Return the text of a config that is the robot's, but for how far its servos turn."""
     bus, lifted = settings.bus, not measuring.step.drives
     changes: dict[tuple[str, ...], Any] = {
@@ -120,9 +138,9 @@ def wide(file: SettingsFile, settings: Config, robot: str, measuring: Measuring)
     }
     if lifted:
         changes["drive", "mixer", "max_speed"] = SLOW
-    for name, source in settings.drive.known_sources.items() if lifted else ():
-        if name != SOURCE:  # a program that was left running turns no motor now
-            changes["drive", "sources", name, "priority"] = source.priority
+    for name, other in settings.drive.known_sources.items() if lifted else ():
+        if name != source:  # a program that was left running turns no motor now
+            changes["drive", "sources", name, "priority"] = other.priority
             changes["drive", "sources", name, "max_speed"] = CREEP
     if settings.driver == "simulated":
         changes["drivers", "simulated", "path"] = settings.driver_settings("simulated", robot)["path"]

@@ -2,9 +2,10 @@ import argparse
 from pathlib import Path
 
 from zteleop import config
-from zteleop.cli import _options
-from zteleop.cli._calibrating import find_out
-from zteleop.cli._consent import ROOM_AHEAD, ask_consent
+from zteleop.cli import _options, _pages
+from zteleop.cli._calibrating import Seat, at_terminal, find_out
+from zteleop.cli._calibrating_page import on_a_page
+from zteleop.cli._consent import ROOM_AHEAD, WHEELS_UP, ask_consent
 from zteleop.cli._donkeycar import export, imported
 from zteleop.cli._oscillator import measured
 from zteleop.cli._settings_file import Changes, SettingsFile, editor, of_servos, pulses_told
@@ -43,6 +44,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--trim", action="store_true", help="drive on the floor, and find out only where it steers straight"
     )
     parser.add_argument("--dry-run", action="store_true", help="write nothing: show what would change")
+    parser.add_argument("--web", action="store_true", help="ask on a page in a browser")
+    _pages.add(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -52,10 +55,12 @@ def run(arguments: argparse.Namespace) -> int:
         export(file.settings, arguments.to_donkeycar, arguments.dry_run)
         return 0
     if arguments.from_donkeycar:
-        keep(file, dict(imported(file.settings, arguments.from_donkeycar)), arguments.dry_run)
+        print(
+            "\n".join(kept(file, dict(imported(file.settings, arguments.from_donkeycar)), arguments.dry_run))
+        )
         return 0
     if arguments.meter is not None:
-        keep(file, dict(measured(file.settings, arguments.meter)), arguments.dry_run)
+        print("\n".join(kept(file, dict(measured(file.settings, arguments.meter)), arguments.dry_run)))
         return 0
     settings = _options.with_typed(arguments, file.settings)
     if not settings.drive.mixer.takes_ticks:
@@ -65,31 +70,38 @@ def run(arguments: argparse.Namespace) -> int:
         )
     robot = settings.robot or config.own_name()
     editor()
+    steps = TRIM if arguments.trim else STEPS
+    turns = "drives the car" if arguments.trim else "turns the steering and the motor"
+    does = f"This {turns}, by the {settings.driver} chip, as far as the keys say."
+    about = ROOM_AHEAD if arguments.trim else WHEELS_UP
+
+    def measure(seat: Seat) -> tuple[int, list[str]]:
+        found = find_out(file, settings, robot, steps, seat)
+        if found is None:
+            return 1, [f"left before the end: {file.path} is as it was, and its neutral is written"]
+        return 0, kept(file, of_servos(found), arguments.dry_run)
+
+    place = _pages.place_of(arguments) if arguments.web else None
+    if place and arguments.trim:
+        raise ConfigError("--trim drives on the floor, by the keys of a terminal: say it without --web")
+    if place:
+        return on_a_page(settings, robot, place, does, about, measure)
     open_terminal()  # what is missing is said before anything turns
     if settings.driver != "simulated":
-        where = f"on the {settings.driver}, as far as the keys say"
-        if arguments.trim:
-            ask_consent(f"This drives the car {where}.", ROOM_AHEAD)
-        else:
-            ask_consent(f"This turns the steering and the motor {where}.")
-    found = find_out(file, settings, robot, TRIM if arguments.trim else STEPS)
-    if found is None:
-        print(f"left before the end: {file.path} is as it was, and its neutral is written")
-        return 1
-    keep(file, of_servos(found), arguments.dry_run)
-    return 0
+        ask_consent(does, about)
+    code, lines = measure(at_terminal(settings))
+    print("\n".join(lines))
+    return code
 
 
-def keep(file: SettingsFile, changes: Changes, dry_run: bool) -> None:
-    """Write what was found out into the config file, or show what that would change."""
+def kept(file: SettingsFile, changes: Changes, dry_run: bool) -> list[str]:
+    """Write what was found out into the config file, and return what it is now; or what would change."""
     text, after = file.changed(changes)
     if dry_run:
-        print("\n".join(file.difference(text)) or f"{file.path} says so already")
-        return
-    there = bool(file.text)
+        return file.difference(text) or [f"{file.path} says so already"]
+    before = f"; as it was before it is {file.backup}" if file.text else ", which is new"
     file.write(text)
-    print("\n".join(pulses_told(file.settings, after)))
-    before = f"; as it was before it is {file.backup}" if there else ", which is new"
-    print(f"{file.path} is written{before}")
-    if after.driver == "simulated":
-        print('driver is "simulated": on the car, say driver = "pca9685"')
+    hint = (
+        ['driver is "simulated": on the car, say driver = "pca9685"'] if after.driver == "simulated" else []
+    )
+    return [*pulses_told(file.settings, after), f"{file.path} is written{before}", *hint]

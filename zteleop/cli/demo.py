@@ -13,7 +13,7 @@ from pathlib import Path
 from zteleop.bus import clock
 from zteleop.bus.node import Node
 from zteleop.bus.settings import SAME_MACHINE, SAME_MACHINE_DOOR, BusSettings
-from zteleop.cli import _bad_link, _scenes, web
+from zteleop.cli import _bad_link, _pages, _scenes, web
 from zteleop.cli._driving import find_vehicle
 from zteleop.cli._scratch import DEMO, scratch
 from zteleop.cli.keyboard import drive_with_keys
@@ -61,7 +61,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Start actuator and simulator as processes of their own; drive them from here."""
     if arguments.web:
-        web.expect_websockets()
+        _pages.expect_websockets()
     screen = sys.stdin.isatty() and sys.stdout.isatty()
     place = arguments.scene or (SCENE if screen or arguments.web else OPEN)
     scene = _scenes.find(place)
@@ -95,7 +95,7 @@ def run(arguments: argparse.Namespace) -> int:
         await_robot(node, children, Path(log.name))
         if arguments.web:
             print(f"{HIDDEN}\n" * hidden, end="")
-            web.drive_from_page(node, Config(bus=bus), web.Place(port=0))
+            web.drive_from_page(node, Config(bus=bus), _pages.Place(port=0))
             return 0
         if screen:
             trip = Trip()

@@ -1,114 +1,36 @@
 import argparse
-import sys
-from collections.abc import Sequence
 from importlib.metadata import version
-from importlib.util import find_spec
-from typing import NamedTuple
 
 from zteleop.bus.lane.call import Call
 from zteleop.bus.node import Node
-from zteleop.cli import _options
+from zteleop.cli import _options, _pages
 from zteleop.cli._driving import find_vehicle
 from zteleop.config import Config
-from zteleop.errors import ConfigError, DeviceError, install
 
 EXAMPLES = (
     "zteleop web",
     "zteleop web archangel --port 8000",
 )
-HERE, PORT = "127.0.0.1", 8765
-"""where pages are served: on this machine alone"""
-
-
-class Place(NamedTuple):
-    """Where pages are served, and how they are reached."""
-
-    at: str = HERE
-    port: int = PORT
-    hosts: Sequence[str] = ()
-    """other names that lead here"""
-    certificate: str = ""
-    key: str = ""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     _options.add(parser)
     _options.add_robot(parser)
-    of = f"0 is any that is free (default: {PORT})"
-    parser.add_argument("--port", type=port, default=PORT, metavar="N", help=of)
-    at = f"0.0.0.0 is every network of this machine (default: {HERE}, this machine alone)"
-    parser.add_argument("--serve-at", default=HERE, metavar="ADDRESS", help=at)
-    parser.add_argument(
-        "--host",
-        metavar="NAME",
-        action="append",
-        default=[],
-        help="another name by which a browser reaches this server, as that of a tunnel; may be repeated",
-    )
-    parser.add_argument("--tls-cert", metavar="FILE", default="", help="speak https, with this certificate")
-    parser.add_argument("--tls-key", metavar="FILE", default="", help="its key, where that is another file")
+    _pages.add(parser)
 
 
 def run(arguments: argparse.Namespace) -> None:
-    expect_websockets()
-    place = Place(
-        at=arguments.serve_at,
-        port=arguments.port,
-        hosts=arguments.host,
-        certificate=arguments.tls_cert,
-        key=arguments.tls_key,
-    )
-    if place.key and not place.certificate:
-        raise ConfigError("a key alone is no identity: say --tls-cert as well")
+    place = _pages.place_of(arguments)
     settings = _options.load(arguments)
     with _options.join("web", settings) as node:
         drive_from_page(node, settings, place)
 
 
-def expect_websockets() -> None:
-    """Raise DeviceError where what serves a page is not installed."""
-    if find_spec("websockets") is None:
-        raise DeviceError(f"a page needs websockets, which is not installed; say: {install('web')}")
-
-
-def drive_from_page(node: Node, settings: Config, place: Place) -> None:
-    """Serve a page, print its address, and drive by whatever is held on it until the node is stopped.
-
-    Raises BusError where the port is taken, ConfigError for a certificate that is none.
-    """
-    from zteleop.bridges.web.address import is_loopback, reached_at, security
+def drive_from_page(node: Node, settings: Config, place: _pages.Place) -> None:
+    """Serve a page, print its address, and drive by whatever is held on it until the node is stopped."""
     from zteleop.bridges.web.cockpit import Cockpit
-    from zteleop.bridges.web.server import Server
-    from zteleop.bridges.web.serving import serving
-    from zteleop.bridges.web.tickets import Tickets, new_token
 
-    token, alone = new_token(), is_loopback(place.at)
-    secure = security(place.certificate, place.key) if place.certificate else None
     with Call(settings.bus) as lane:
         cockpit = Cockpit(node, find_vehicle(node, settings), version("zteleop"), lane)
-        server = Server(Tickets(token, place.hosts, addresses=not alone), cockpit, node.log.warn)
-        with serving(server, place.at, place.port, secure) as where:
-            address = f"{'https' if secure else 'http'}://{reached_at(place.at)}:{where}/#t={token}"
-            print(f"open {address}", flush=True)
-            print(f"it drives {node.robot}, for whoever knows this address; Ctrl-C ends it", flush=True)
-            if not alone:
-                _tell_the_room(address, is_secure=secure is not None)
+        with _pages.served(cockpit, place, f"drives {node.robot}", node.log.warn):
             cockpit.run()
-
-
-def _tell_the_room(address: str, is_secure: bool) -> None:
-    """Show an address to a phone's camera, and say who else may read it."""
-    if sys.stdout.isatty() and find_spec("segno"):
-        import segno
-
-        segno.make(address, error="l").terminal(compact=True, border=2)
-    if not is_secure:
-        words = "whoever shares this network can read the address along; --tls-cert keeps it secret"
-        print(f"zteleop web: {words}", file=sys.stderr, flush=True)
-
-
-def port(text: str) -> int:
-    """Return a port, as typed."""
-    if not (text.isdecimal() and len(text) <= 5 and int(text) < 2**16):
-        raise argparse.ArgumentTypeError(f"expected a port from 0 to 65535, found {text}")
-    return int(text)

@@ -35,7 +35,7 @@ class Answering:
         """Whether releases are told."""
         return self._keys.releases
 
-    def fileno(self) -> int:
+    def fileno(self) -> int | None:
         """Return what turns readable when something happened to a key."""
         return self._keys.fileno()
 

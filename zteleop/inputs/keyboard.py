@@ -143,7 +143,7 @@ class Keyboard:
         if self._wishes.newest is Wish.RELEASE:
             self._wishes.newest = None
 
-    def fileno(self) -> int:
+    def fileno(self) -> int | None:
         """Return what turns readable when a key was pressed."""
         return self._typed.fileno()
 

@@ -67,8 +67,13 @@ class Tuner(Keyboard):
     @property
     def about(self) -> list[tuple[str, str]]:
         """What was found so far."""
-        found = ", ".join(f"{find} {self._ticks(width)}" for find, width in self._measuring.found.items())
+        found = ", ".join(f"{find} {ticks}" for find, ticks in self.found)
         return [("found", found or "nothing so far")]
+
+    @property
+    def found(self) -> list[tuple[str, int]]:
+        """The answers so far, in ticks."""
+        return [(find, self._ticks(width)) for find, width in self._measuring.found.items()]
 
     def task(self) -> list[tuple[str, str]]:
         """Return what is asked for."""

@@ -46,8 +46,8 @@ class Keys(Protocol):
     def releases(self) -> Tells:
         """Whether releases are told."""
 
-    def fileno(self) -> int:
-        """Return what turns readable when something happened to a key."""
+    def fileno(self) -> int | None:
+        """Return what turns readable when something happened to a key; None where somebody else says so."""
 
     def read(self, now: float) -> list[Key]:
         """Return what happened to keys since, without blocking."""

@@ -2,24 +2,24 @@ import argparse
 
 import pytest
 
-from zteleop.cli import _run, web
+from zteleop.cli import _pages, _run
 from zteleop.errors import install
 
 
 def test_a_port_is_a_number_that_fits() -> None:
-    assert (web.port("0"), web.port("65535")) == (0, 65535)
+    assert (_pages.port("0"), _pages.port("65535")) == (0, 65535)
 
 
 @pytest.mark.parametrize("text", ["-1", "65536", "http", "", "8765.0", "9" * 5000])
 def test_what_is_no_port_is_refused(text: str) -> None:
     with pytest.raises(argparse.ArgumentTypeError, match="expected a port from 0 to 65535, found"):
-        web.port(text)
+        _pages.port(text)
 
 
 def test_without_websockets_it_says_what_to_install(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(web, "find_spec", lambda name: None)
+    monkeypatch.setattr(_pages, "find_spec", lambda name: None)
     assert _run.run_verb("web", "serve a page", []) == 1
     words = "zteleop web: a page needs websockets, which is not installed; say: "
     assert capsys.readouterr().err == f"{words}{install('web')}\n"

@@ -97,7 +97,7 @@ class Cockpit:
             self._fleet.look(page, slots, said.robots)
         elif isinstance(said, Setting):
             self._tuning.set(slots, said)
-        else:
+        elif isinstance(said, Wish):
             self._wish(page, slots, said)
 
     def _wish(self, page: str, slots: Slots, said: Wish) -> None:

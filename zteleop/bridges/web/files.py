@@ -32,11 +32,11 @@ class File(NamedTuple):
     body: bytes
 
 
-def load(folder: Path = FOLDER) -> Mapping[str, File]:
+def load(index: str = INDEX, folder: Path = FOLDER) -> Mapping[str, File]:
     """Return every file that may be asked for, by its path; what is in no list is not there."""
     found = {
         f"/{path.relative_to(folder).as_posix()}": File(TYPES[path.suffix], path.read_bytes())
         for path in sorted(folder.rglob("*"))
         if path.suffix in TYPES
     }
-    return found | {"/": found[f"/{INDEX}"]}
+    return found | {"/": found[f"/{index}"]}

@@ -16,7 +16,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 from websockets.typing import Subprotocol
 
-from zteleop.bridges.web.files import HEADERS, File, load
+from zteleop.bridges.web.files import HEADERS, INDEX, File, load
 from zteleop.bridges.web.slots import Slots
 from zteleop.bridges.web.tickets import PROTOCOL, Tickets
 from zteleop.bridges.web.words import LONGEST, Note, Said, read, text
@@ -49,11 +49,13 @@ class Cockpit(Protocol):
 class Server:
     """Lets pages in that have a ticket; `tell` hears of those that have none."""
 
-    def __init__(self, tickets: Tickets, cockpit: Cockpit, tell: Callable[[str], object]) -> None:
+    def __init__(
+        self, tickets: Tickets, cockpit: Cockpit, tell: Callable[[str], object], index: str = INDEX
+    ) -> None:
         self._tickets = tickets
         self._cockpit = cockpit
         self._tell = tell
-        self._files = load()
+        self._files = load(index)
         self._numbers = count(1)
         self._pages: set[str] = set()
 

@@ -61,7 +61,15 @@ class Setting(Struct, tag="set", tag_field="is", frozen=True, forbid_unknown_fie
     value: bool | int | float | Words
 
 
-Said = Held | Wish | Watch | Look | Setting
+class Press(Struct, tag="press", tag_field="is", frozen=True, forbid_unknown_fields=True):
+    """A key of whoever answers the questions of `zteleop calibrate`, or a button that stands for one."""
+
+    key: Words
+    beat: float
+    """of the newest question that this page has been told, as its time is"""
+
+
+Said = Held | Wish | Watch | Look | Setting | Press
 
 
 class Hello(Struct, tag="hello", tag_field="is", frozen=True):
@@ -163,6 +171,41 @@ class Robots(Struct, tag="robots", tag_field="is", frozen=True):
     robots: list[Robot]
 
 
+class Asks(Struct, tag="asks", tag_field="is", frozen=True):
+    """A question of `zteleop calibrate`, and how the robot stands."""
+
+    step: int
+    """which, from 1, of so many `steps`"""
+    steps: int
+    axis: str
+    """which servo is turned"""
+    asks: str
+    """until when"""
+    brakes: bool
+    """many an ESC brakes first"""
+    found: list[str]
+    state: str
+    why: str
+    note: str
+    """why what was just pressed counts for nothing"""
+    out: dict[str, int]
+    """ticks that leave the chip, by servo"""
+    idle_left: float | None
+    """s until neutral for want of a press; None when it is neutral already"""
+    beat: float
+    """the robot's time"""
+
+
+class Told(Struct, tag="told", tag_field="is", frozen=True):
+    """Where no question is asked: what there is to do before, meanwhile, or after all of them."""
+
+    lines: list[str]
+    begins: str = ""
+    """what to press for it to begin; empty where that is not asked for"""
+    ends: bool = False
+    """nothing comes after this"""
+
+
 _decoder = msgspec.json.Decoder(Said)
 _encoder = msgspec.json.Encoder()
 
@@ -177,6 +220,6 @@ def read(frame: str | bytes) -> Said:
         raise MessageError(f"expected what a page of this server says, found another: {error}") from None
 
 
-def text(word: Hello | Heard | Wheel | Seen | Note | Graph | Parameters | Robots) -> str:
+def text(word: Hello | Heard | Wheel | Seen | Note | Graph | Parameters | Robots | Asks | Told) -> str:
     """Return what a server says, as it is sent."""
     return _encoder.encode(word).decode()

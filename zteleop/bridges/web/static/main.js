@@ -11,13 +11,13 @@ import { Plot, save } from "./plot.js";
 import * as robots from "./robots.js";
 import { Rooms } from "./rooms.js";
 import { tilt } from "./tilt.js";
+import { TOKEN } from "./token.js";
 import { Top } from "./top.js";
 import { Topics } from "./topics.js";
 
 const TOPICS = ["drive_status", "vehicle", "odom", "scene", "battery_state", "watchdog", "camera/image/compressed"];
 const SILENT = 500; // ms without a status after which it is not so any more
 const SOON = 600; // ms in which a robot that is there has answered
-const KEY = "zteleop.token";
 
 /**
  * @template {HTMLElement} [T=HTMLElement]
@@ -38,16 +38,12 @@ const signed = (value) => (value < 0 ? "\u2212" : "+") + Math.abs(value).toFixed
 /** @param {any} twist */
 const twisted = (twist) => `${signed(twist.linear.x)} m/s  ${signed(twist.angular.z)} rad/s`;
 
-const token = new URLSearchParams(location.hash.slice(1)).get("t") || sessionStorage.getItem(KEY) || "";
-sessionStorage.setItem(KEY, token); // a page that is loaded anew keeps it; it stands in no address that is logged
-history.replaceState(null, "", location.pathname);
-
 const held = new Held(document, () => bus.sayHeld());
 const phone = new Phone();
 const view = new Top(at("top"));
 const known = { you: "", robot: "", holder: "", obeyed: false, refused: "", vehicle: /** @type {any} */ (null), heard: 0, since: 0, met: false, x: 0, y: 0 };
 const eye = new Eye(at("eye"), (words) => show("camera", words));
-const bus = new Bus(token, () => stick(), hear, (picture) => eye.see(picture), connected);
+const bus = new Bus(TOKEN, () => stick(), hear, (picture) => eye.see(picture), connected);
 bus.topics.push(...TOPICS);
 const plot = new Plot(at("plot-picture"), at("plot-lines"), at("plot-pause"), watch);
 const topics = new Topics(at("topics-list"), at("topics-echo"), plot, watch);
