@@ -4,7 +4,7 @@ import sys
 
 from zteleop.errors import ConfigError
 
-WHEELS_UP = ("Lift them off the ground and hold nothing near them.", "wheels up")
+WHEELS_UP = ("Lift its wheels off the ground, and hold nothing near them.", "wheels up")
 ROOM_AHEAD = ("Put it on the floor, with some metres of room, and stay beside it.", "room ahead")
 """what to do, and what is typed once that is done"""
 

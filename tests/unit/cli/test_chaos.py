@@ -64,6 +64,6 @@ def test_nothing_turns_before_somebody_typed_so(
     monkeypatch.setattr(sys, "stdin", io.StringIO("y\n"))
     assert main(["chaos", "--real"]) == 1
     said = capsys.readouterr()
-    assert "Lift them off the ground" in said.err
+    assert "Lift its wheels off the ground" in said.err
     assert said.err.endswith("nothing was done: expected the words 'wheels up'\n")
     assert said.out == ""

@@ -5,6 +5,7 @@ and one that comes late was meant for another moment.
 """
 
 from collections.abc import Callable
+from functools import partial
 from queue import Empty, SimpleQueue
 from threading import Lock
 from typing import NamedTuple
@@ -17,8 +18,11 @@ BEGIN, SEEN, AWAY = "begin", "seen", ""
 """what a page presses to let it begin, and once the last word is shown; the last page is closed"""
 LATE = 1.0
 """s of the robot's time between what a page was told and its press"""
-STOPS = ("backspace", "space", "q")
+ENDS = ("backspace", "q")
+STOPS = (*ENDS, "space")
 """keys that count however late: they only bring rest"""
+
+STARTS, AGAIN = Told(["the robot is started"]), Told(["the robot is started anew"])
 
 
 class Sitting(NamedTuple):
@@ -43,8 +47,10 @@ class Questions:
         self._version = version
         self._lock = Lock()
         self._pages: dict[str, Slots] = {}
-        self._word: Asks | Told = Told(["the robot is started"])
+        self._word: Asks | Told = STARTS
         self._sitting: Sitting | None = None
+        self._kept: set[str] = set()
+        """what ends it, pressed while the robot started"""
         self._pressed: SimpleQueue[str] = SimpleQueue()
         """where no question is asked"""
 
@@ -69,18 +75,23 @@ class Questions:
         sitting = self._sitting
         if sitting is None:
             self._pressed.put(said.key)
+            self._kept.update({said.key} & {*ENDS})
         elif said.key not in STOPS and sitting.time - said.beat > LATE:
             self._pages[page].put(
                 "note", text(Note("that press came late, and counts for nothing: press again"))
             )
         else:
-            sitting.node.membership.loop.call_soon(lambda: sitting.press(said.key))
+            sitting.node.membership.loop.call_soon(partial(sitting.press, said.key))
 
     def sit(self, sitting: Sitting | None) -> None:
-        """Let somebody answer, or nobody while no question is asked."""
+        """Let somebody answer, or nobody while no question is asked: a stop is kept for the next."""
         self._sitting = sitting
         if sitting is None:
-            self.tell(Told(["the robot starts anew"]))
+            self.tell(AGAIN)
+            return
+        for key in self._kept:
+            sitting.node.membership.loop.call_soon(partial(sitting.press, key))
+        self._kept.clear()
 
     def tell(self, word: Asks | Told) -> None:
         """Tell all pages what is so now."""
@@ -95,6 +106,8 @@ class Questions:
         self.tell(Told(lines, begins))
         while self._pressed.get() != BEGIN:
             pass
+        self._kept.clear()
+        self.tell(STARTS)
 
     def end(self, lines: list[str], within: float) -> None:
         """Tell the last word, and wait, not for long, until a page has shown it, or all are closed."""

@@ -82,9 +82,10 @@ def test_it_begins_when_somebody_says_so_and_not_by_another_key(questions: Quest
         page.press(key)
     begun.join(0.05)
     assert begun.is_alive()
+    assert {"is": "told", "lines": ["Lift it."], "begins": "wheels up", "ends": False} in page.told()
     page.press(BEGIN)
     begun.join()
-    assert {"is": "told", "lines": ["Lift it."], "begins": "wheels up", "ends": False} in page.told()
+    assert sit(questions) == [], "a q before that ends nothing"
 
 
 def test_the_last_word_is_waited_for_until_a_page_has_shown_it_or_none_is_open(questions: Questions) -> None:
@@ -115,7 +116,17 @@ def test_between_two_parts_no_press_counts(questions: Questions) -> None:
     questions.sit(None)
     page.press("up")
     assert pressed == []
-    assert {"is": "told", "lines": ["the robot starts anew"], "begins": "", "ends": False} in page.told()
+    assert {"is": "told", "lines": ["the robot is started anew"], "begins": "", "ends": False} in page.told()
+
+
+def test_a_stop_while_the_robot_starts_is_kept_until_it_can_be_heard_and_nothing_else_is(
+    questions: Questions,
+) -> None:
+    page = Page(questions, "page 1")
+    for key in ("up", "backspace", "enter", "backspace"):
+        page.press(key)
+    assert sit(questions) == ["backspace"]
+    assert sit(questions) == []
 
 
 def test_what_is_pressed_is_read_once() -> None:

@@ -100,10 +100,10 @@ function told(word) {
   show("begin", word.begins);
   at("state").dataset.state = "idle";
   show("state", word.ends ? "done" : word.begins ? "waits for you" : "starting");
-  at("leave").hidden = true;
+  at("release").hidden = true;
+  for (const id of ["stop", "leave", "figures"]) at(id).hidden = Boolean(word.begins) || word.ends;
   if (!word.ends) return;
   known.ended = true;
-  for (const id of ["stop", "release"]) at(id).hidden = true;
   press("seen");
 }
 
@@ -112,7 +112,7 @@ function asks(word) {
   known.beat = word.beat;
   if (known.axis !== word.axis) label(word.axis);
   at("begin").hidden = true;
-  at("leave").hidden = false;
+  for (const id of ["stop", "leave", "figures"]) at(id).hidden = false;
   offer(true);
   show("step", `${word.step} of ${word.steps}`);
   const upsideDown = word.axis === "steering" ? "a servo that is built in upside down turns the other way, and is found out" : "";
