@@ -65,6 +65,17 @@ _HOMES = {
     "ZteleopError": "zteleop.errors",
 }
 
+_OF_ROS = {
+    "init": "the `with` of a Node",
+    "shutdown": "the end of a Node's `with`",
+    "spin": "node.spin()",
+    "spin_once": "node.spin(seconds)",
+    "ok": "node.spin(), which ends by itself",
+    "create_node": "Node(name, robot=...)",
+    "init_node": "Node(name, robot=...)",
+}
+"""what modules of ROS have -> what it is here"""
+
 __all__ = [
     "Beat",
     "Bool",
@@ -121,5 +132,6 @@ __all__ = [
 def __getattr__(name: str) -> Any:
     """Import what is asked for, when it is: `zteleop --help` needs neither bus nor messages."""
     if name not in __all__:
-        raise AttributeError(f"zteleop has no {name!r}")
+        here = f": here it is {_OF_ROS[name]} (docs/rclpy.md)" if name in _OF_ROS else ""
+        raise AttributeError(f"zteleop has no {name!r}{here}")
     return getattr(import_module(_HOMES.get(name, "zteleop.messages")), name)

@@ -155,6 +155,8 @@ def test_a_file_that_cannot_be_read_is_told(home: Path) -> None:
         ("a = 'b", "1: not TOML: a text ends with the quote that it begins with, found none; "),
         ('a = "b', "1: not TOML: a text ends with the quote that it begins with, found none; "),
         ("a = \u201cb\u201d", "1:5: not TOML: a text stands in \" or ', found \u201c; "),
+        ("a = True", "1:5: not TOML: yes and no are true and false, in small letters, found True; "),
+        ("a = no", "1:5: not TOML: yes and no are true and false, in small letters, found no; "),
         ("a = 1\na = 2", "2: not TOML: a is written twice; what else is wrong shows once this is right"),
         ("[a]\nb = 1\nb = 2\nc = 3", "3:6: not TOML: b is written twice; "),
         ("[drive]\n[drive.limits]\n[drive.limits]", "3:14: not TOML: [drive.limits] is written twice; "),
@@ -219,8 +221,8 @@ def test_a_mistake_that_looks_like_a_place_is_refused_all_the_same(text: str) ->
     [
         (
             "[drive.mixer]\nkind = 'differential'",
-            "1:2: drive.mixer: expected servos left, right, found steering, throttle; "
-            "what is written here replaces those built in",
+            "1:2: drive.mixer: expected servos left, right, found steering, throttle, which are built in: "
+            "write [drive.servos.left] and [drive.servos.right]",
         ),
         (
             "[drive.servos.throttle]\nchannel = 0",

@@ -116,13 +116,14 @@ class Node:
         Raises ConfigError when the topic's name is none, or the topic takes other types; and for the
         length of a queue, which rclpy wants and nobody keeps here.
         """
+        name = resolve(topic, self.robot)
         if queue:
             found = ", ".join(map(repr, queue))
             raise ConfigError(
                 f"publisher(topic, type) keeps no queue, found {found:.40}: who hears says depth=, "
                 "in node.subscription or node.on"
             )
-        name, kinds = resolve(topic, self.robot), kinds_of(types)
+        kinds = kinds_of(types)
         about = topic_of(name.path)
         if about.types and not set(kinds) <= set(about.types):
             takes = " or ".join(accepted.__name__ for accepted in about.types)
@@ -138,11 +139,15 @@ class Node:
         return self._commands.publisher(name, kinds, source, wait, as_typed(topic, name.robot))
 
     def _notice_typo(self, topic: str, words: str) -> None:
-        """Ask whoever names a topic that is nearly a known one; not who writes the robot's name as well."""
+        """Ask whoever names a topic that is nearly a known one."""
+        if near := self._meant(topic):
+            self.log.warn(f"{words.format(topic)}; did you mean {near}?")
+
+    def _meant(self, topic: str) -> str:
+        """Return the known topic that a name nearly is; nothing where the robot's stands there as well."""
         name = resolve(topic, self.robot)
         is_meant = topic_of(name.path).types or topic.startswith(f"/{name.robot}/")
-        if not is_meant and (near := known_as(name.path)):
-            self.log.warn(f"{words.format(topic)}; did you mean {near}?")
+        return "" if is_meant else known_as(name.path)
 
     def subscription(
         self,
@@ -169,15 +174,26 @@ class Node:
         return inbox
 
     def on(
-        self, topic: str, types: Types[M], depth: int | None = None
+        self,
+        topic: str,
+        types: Types[M],
+        function: Callable[[M], object] | None = None,
+        *,
+        depth: int | None = None,
     ) -> Callable[[Callable[[M], object]], Callable[[M], object]]:
-        """Decorate a function to handle each message of a topic in `spin`; of one nobody says, it tells."""
+        """Decorate a function to handle each message of a topic in `spin`; of one nobody says, it tells.
+
+        A function that is given is decorated at once.
+        """
 
         def decorate(function: Callable[[M], object]) -> Callable[[M], object]:
             self.subscription(topic, types, lambda received: function(received.message), depth=depth)
-            self._miss_speakers(resolve(topic, self.robot))
+            if not self._meant(topic):  # else that is told
+                self._miss_speakers(resolve(topic, self.robot))
             return function
 
+        if function:
+            decorate(function)
         return decorate
 
     def _miss_speakers(self, name: Name, in_loop: bool = True) -> None:
@@ -247,8 +263,10 @@ class Node:
         name = Name(robot, f"{self.name}/{SERVICE}")
         self._services.add(name, GetTypeRequest, GetTypeResponse, tell, stands=False, at_once=True)
 
-    def every(self, period: float) -> Callable[[Callable[[], object]], Callable[[], object]]:
-        """Decorate a function to run every `period` seconds in `spin`."""
+    def every(
+        self, period: float, function: Callable[[], object] | None = None
+    ) -> Callable[[Callable[[], object]], Callable[[], object]]:
+        """Decorate a function to run every `period` seconds in `spin`; one that is given, at once."""
         if callable(period) or not period > 0:
             raise ConfigError(f"a timer's period is in s, as in @node.every(0.1), and found {period!r:.40}")
 
@@ -257,6 +275,8 @@ class Node:
             self.membership.loop.every(period, function)
             return function
 
+        if function:
+            decorate(function)
         return decorate
 
     def spin(self, seconds: float | None = None) -> None:

@@ -44,7 +44,7 @@ VERBS = {
     "param describe": "say what a parameter is, and may be",
     "param dump": "print all parameters of a node, as a file for param load",
     "param load": "change a node's parameters as a file says",
-    "interface list": "list the types of messages",
+    "interface list": "list the types of messages, services and actions",
     "interface show": "say what a type of message is made of",
     "interface proto": "print a message of a type, to be filled in for pub",
     "why": "say why a robot moves as it does, or does not",

@@ -26,6 +26,7 @@ ANSWERED_WITHIN = 3.0
 """s in which a robot that is there obeys, or says why it does not"""
 SILENT = 1.0
 """s without a word of a robot's, after which nobody drives it on"""
+WHO_DOES = "zteleop sim does of a simulated robot, zteleop odometry of any other"
 SEEN_WITHIN = 2.0
 """s to wait for the first odometry"""
 JUMP, FASTEST = 0.3, 5.0
@@ -72,7 +73,7 @@ class Motion:
         """Return where the robot is; raises BusError where nobody says so."""
         if not self._node.membership.until(lambda: self._pose, SEEN_WITHIN) or not self._pose:
             words = f"nobody says where {self._node.robot} is, on /{self._node.robot}/odom"
-            raise BusError(f"{words}; zteleop sim does of a simulated robot, zteleop odometry of any other")
+            raise BusError(f"{words}; {WHO_DOES}")
         return self._pose
 
     def drive(
@@ -143,7 +144,8 @@ class Motion:
     def _told(self, tell: Callable[[Trail], str]) -> str:
         if self._trail:
             return tell(self._trail)
-        return f"nobody says where {self._node.robot} is: what it did was not measured"
+        unmeasured = f"nobody says where {self._node.robot} is: what it did was not measured"
+        return f"{unmeasured} ({WHO_DOES})"
 
     def _hindrance(self, now: float, by_sight: bool) -> str:
         """Return why not to go on; nothing while there is no reason."""

@@ -8,6 +8,7 @@ from importlib import import_module
 from typing import NoReturn
 
 from zteleop.cli import file_of
+from zteleop.errors import meant
 from zteleop.processes.ending import in_words
 from zteleop.text.quantity import KINDS
 
@@ -37,9 +38,23 @@ class Parser(argparse.ArgumentParser):
     """One that says, of a word that is missing, where to find it."""
 
     def error(self, message: str) -> NoReturn:
-        missing = message.rpartition("required: ")[2].partition(", ")[0]
-        where = WHERE.get(missing, "")
+        rest = {one.metavar or one.dest for one in self._actions if one.nargs == argparse.REMAINDER}
+        head, required, names = message.rpartition("required: ")
+        missing = [name for name in names.split(", ") if name not in rest]
+        if required:
+            message = f"{head}{required}{', '.join(missing)}"
+        if choice := re.search(r"(.*): invalid choice: '(.*)' \(choose from (.*)\)", message):
+            known = re.findall(r"[\w./-]+", choice[3])
+            message = (
+                f"{choice[1]}: expected {' or '.join(known)}, found {choice[2]}{_near(choice[2], known)}"
+            )
+        where = WHERE.get(missing[0], "")
         super().error(f"{message}; {where}" if where else message)
+
+
+def _near(word: str, known: list[str]) -> str:
+    question = meant(word, known)
+    return f"; {question}" if question else ""
 
 
 def run_verb(verb: str, text: str, arguments: list[str]) -> int:

@@ -42,6 +42,9 @@ SCENE, OPEN = "eight", "floor"
 """where it drives at a screen, and where nobody sees what stands in its way"""
 START = 10.0
 HIDDEN = "other terminals see the robot that was on this machine before, and not this one"
+ALONE = "other terminals do not see this robot, as another was here when it started: q, and start it anew"
+LOOK_EVERY = 1.0
+"""s between two looks whether that one is still there"""
 PARTS = ("robot", "simulator")
 """its processes beside this one"""
 
@@ -99,7 +102,7 @@ def run(arguments: argparse.Namespace) -> int:
             return 0
         if screen:
             trip = Trip()
-            lost = partial(ended, children, hidden)
+            lost = partial(ended, children, Hidden() if hidden else None)
             drive = drive_with_keys(
                 node, Config(bus=bus), arguments.drive, marks(plan(scene)), trip, task=lost
             )
@@ -110,11 +113,26 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def ended(children: Sequence[Process], hidden: bool = False) -> Task:
+class Hidden:
+    """What there is to say while others do not see this robot."""
+
+    def __init__(self) -> None:
+        self._looked = clock.now()
+        self._words = HIDDEN
+
+    @property
+    def words(self) -> str:
+        now = clock.now()
+        if now - self._looked >= LOOK_EVERY:
+            self._looked, self._words = now, HIDDEN if _is_taken(SAME_MACHINE) else ALONE
+        return self._words
+
+
+def ended(children: Sequence[Process], hidden: Hidden | None = None) -> Task:
     """Return, where a part of the demo is gone, which, and what to do; else who does not see it, if so."""
     gone = [name for name, child in zip(PARTS, children, strict=True) if child.poll() is not None]
     if hidden and not gone:
-        return Task([("demo", HIDDEN)])
+        return Task([("demo", hidden.words)])
     lines = [("demo", f"its {' and its '.join(gone)} ended: q, and start another")] if gone else ()
     return Task(lines, ends="robot" in gone)
 

@@ -1,4 +1,5 @@
 import argparse
+import os
 import re
 import sys
 from collections.abc import Iterator
@@ -17,10 +18,15 @@ EXAMPLES = (
     "zteleop why archangel",
 )
 PAST = " if it failed, zteleop blackbox on the robot tells how"
-IS = {"link lost": "has lost its link", "operator idle": "waits for an act", "fault": "has a fault"}
+IS = {"link lost": "hears its driver no more", "operator idle": "waits for an act", "fault": "has a fault"}
 """states that are no word behind `is`"""
 UNPLACED = "nobody says where it is: zteleop sim moves a simulated robot; zteleop odometry is for any other"
 STANDS = "says that it stands: something is in its way, its motor does not turn yet, or it has just begun"
+SILENT = " has been silent for "
+SELDOM = (
+    "its link is lost, or it says too seldom what it wants: a program has to twice a second, better ten times"
+)
+"""what silence may be: nobody who hears nothing can tell which"""
 ROLLS, STANDS_BELOW = 0.05, 0.01
 """m/s that are asked of wheels, and that nobody sees"""
 HEARD_WITHIN = 2.0
@@ -38,9 +44,17 @@ def run(arguments: argparse.Namespace) -> None:
         try:
             print(answer(node))
         except BusError as error:
-            if not sys.stdout.isatty():  # kept in a file, it is the answer as well
+            if not sys.stdout.isatty() and not _are_one(1, 2):  # kept in a file, it is the answer as well
                 print(printable(f"{error} (at {_moment()})"))
             raise
+
+
+def _are_one(one: int, other: int) -> bool:
+    """Say whether two files of this process are the same, as behind 2>&1."""
+    try:
+        return os.path.sameopenfile(one, other)
+    except OSError:
+        return False
 
 
 def answer(node: Node) -> str:
@@ -62,13 +76,11 @@ def answer(node: Node) -> str:
     node.membership.until(complete, HEARD_WITHIN - TELL_AFTER)
     if status is None and dog is None:
         raise BusError(f"no actuator of {node.robot} is heard within {HEARD_WITHIN:g} s; is it on?{PAST}")
-    lines = [
-        f"{node.robot} {IS.get(status.state, f'is {status.state}')}: {status.why}"
-        if status
-        else f"{node.robot}: no actuator heard"
-    ]
+    lines = [headline(node.robot or "", status, why) if status else f"{node.robot}: no actuator heard"]
     lines += [f"  {layer.name:9} {layer.says}" for layer in (why.layers if why else [])]
     lines.append(f"  {'watchdog':9} {state_of(dog) if dog else 'is not heard'}")
+    if status and status.state == "link lost" and SILENT in status.why:
+        lines.append(f"  {'link':9} {SELDOM}")
     if status and not _is_placed(node):
         lines.append(f"  {'odom':9} {UNPLACED}")
     elif status and _stands(status, odoms.newest()):
@@ -76,6 +88,16 @@ def answer(node: Node) -> str:
     lines += [f"  {'who':9} {who}" for who in named("\n".join(lines), node)]
     lines.append(f"  {'at':9} {_moment()}")
     return "\n".join(map(printable, lines))
+
+
+def headline(robot: str, status: DriveStatus, why: Why | None) -> str:
+    """Return what a robot does; of one whose wheels do not turn although somebody drives, why not."""
+    words = f"{robot} {IS.get(status.state, f'is {status.state}')}: {status.why}"
+    limits = next((layer.says for layer in why.layers if layer.name == "limiter"), "") if why else ""
+    rests = abs(status.applied.linear.x) < STANDS_BELOW and abs(status.applied.angular.z) < STANDS_BELOW
+    if status.state == "driving" and status.wanted.moves and rests and limits:
+        return f"{words}, and it stands: the limiter {limits}"
+    return words
 
 
 def _is_placed(node: Node) -> bool:

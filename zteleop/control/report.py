@@ -20,14 +20,16 @@ def to_vehicle(
 ) -> Vehicle:
     """Return what an input must know of a robot; `tick_us` is the chip's, `allowed` what binds it now."""
     mixer, limits = settings.mixer, settings.limits
+    most = limits.speed_of(mixer)
+    turn = mixer.max_turn * most / mixer.max_speed if mixer.steers else mixer.max_turn
     return Vehicle(
         kind=mixer.kind,
         channels=[servo.to_channel(name, tick_us) for name, servo in settings.servos.items()],
         tick_us=tick_us,
         ready=ready,
-        max_speed=limits.speed_of(mixer),
+        max_speed=most,
         allowed_speed=(allowed or limits).speed_of(mixer),
-        max_turn=limits.turn_of(mixer),
+        max_turn=min(limits.turn_of(mixer), turn),
         wheelbase=mixer.wheelbase,
         max_steering_angle=mixer.max_steering_angle,
         operator_silence=settings.deadlines.operator,
@@ -96,6 +98,8 @@ def _why(drive: Drive, last: Turned) -> tuple[str, str]:
 
     Whoever drove may have gone since, or been stopped.
     """
+    if drive.admission.holds and not isinstance(last.why, Refusal):
+        return Refusal.AT_REST, ""  # it waited for who drove, and does so no more
     if last.why is not Refusal.HELD:
         return last.why, ""
     if drive.admission.holds:

@@ -27,6 +27,7 @@ SOURCES = {
 }
 INPUTS = ("web", "gamepad", "keyboard", "buttons")
 """those at which a person sits, who sees what is obeyed; any other is a program"""
+REPLACES = "what is written here replaces those built in"
 
 
 class DriveSettings(Struct, frozen=True, forbid_unknown_fields=True):
@@ -46,9 +47,11 @@ class DriveSettings(Struct, frozen=True, forbid_unknown_fields=True):
 
     def __post_init__(self) -> None:
         if set(self.servos) != self.mixer.wheels:
+            built_in = self.servos == DONKEYCAR
+            more = " and ".join(f"[drive.servos.{name}]" for name in sorted(self.mixer.wheels))
             raise ValueError(
-                f"expected servos {_names(self.mixer.wheels)}, found {_names(self.servos)}; "
-                "what is written here replaces those built in"
+                f"expected servos {_names(self.mixer.wheels)}, found {_names(self.servos)}"
+                + (f", which are built in: write {more}" if built_in else f"; {REPLACES}")
             )
         on: dict[int, list[str]] = {}
         for name, servo in self.servos.items():

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from math import hypot
 from typing import Generic, TypeVar
 
-from zteleop.bus import clock
+from zteleop.bus import clock, presence
 from zteleop.bus.node import Node
 from zteleop.bus.topics import TOPICS
 from zteleop.control.motion.dead_reckoning import DeadReckoning, OdometrySettings
@@ -17,6 +17,8 @@ SILENT = 0.5
 """s after which what a robot or an IMU said last is over"""
 ENCODERS_SILENT = 2.0
 """s after which encoders are; the seldom ones speak once a second"""
+HEARD_WITHIN = 1.0
+"""s until it tells that nobody is heard"""
 UPRIGHT = 0.1
 """by which the length of a rotation may differ from 1"""
 FASTEST, TURNS = 20.0, 50.0
@@ -78,6 +80,9 @@ class DeadReckoner:
     def __init__(self, node: Node, settings: OdometrySettings, tell: Callable[[str], object]) -> None:
         self._settings = settings
         self._tell = tell
+        self._node = node
+        self._began = clock.now()
+        self._there: bool | None = None
         self._heard = node.membership.heard()
         self._reckoning = DeadReckoning(settings)
         self._told = Lately(node, "drive_status", DriveStatus, nonsense=too_fast)
@@ -95,10 +100,29 @@ class DeadReckoner:
         self._look(now)
         self._roll(now, now - self._then)
         self._then = now
+        if not self._notice_robot(now):
+            return  # of one who is gone nobody knows where it is
         self._say(now)
         stamp = clock.stamp()
         self._odoms.publish(self._reckoning.odometry(stamp))
         self._transforms.publish(TFMessage([self._reckoning.transform(stamp)]))
+
+    def _notice_robot(self, now: float) -> bool:
+        """Return whether the robot is heard; tell when that changes, and where it never was."""
+        there = self._told.speaks(now) or self._ticks.speaks(now)
+        if there or self._there or now - self._began > HEARD_WITHIN:
+            self._tell_of(there)
+        return there
+
+    def _tell_of(self, there: bool) -> None:
+        robot = self._node.robot or ""
+        if there and self._there is False:
+            self._node.log.info(f"robot {robot} is heard")
+        elif not there and self._there is not False:
+            more = " any more" if self._there else ""
+            here = presence.here(self._node.membership.session, robot)
+            self._node.log.warn(f"robot {robot} is not heard{more}, and where it is not said; {here}")
+        self._there = there
 
     def _roll(self, now: float, dt: float) -> None:
         """Go on by the wheels' encoders where they speak, else by what the wheels are told."""

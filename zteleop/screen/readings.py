@@ -88,5 +88,7 @@ def idle(d: Dashboard, columns: int) -> Line:
         return labelled(7, "idle", "at rest: the link was lost", columns, "dim")
     if d.status.state in HOLDS:
         return labelled(7, "idle", f"at rest: it is {d.status.state}", columns, "dim")
+    if d.asks and d.seen.refused and not d.obeyed:
+        return labelled(7, "idle", "not yours to end: you are not obeyed", columns, "dim")
     words = f"neutral in {d.idle_left:.1f} s" if columns >= 28 else f"{d.idle_left:.1f} s left"
     return labelled(5, "idle", words, columns, "yellow" if d.idle_left < 2 else "")

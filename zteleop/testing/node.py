@@ -180,12 +180,19 @@ class FakeNode:
         return inbox
 
     def on(
-        self, topic: str, types: object, depth: int | None = None
+        self,
+        topic: str,
+        types: object,
+        function: Callable[[Any], object] | None = None,
+        *,
+        depth: int | None = None,
     ) -> Callable[[Callable[[Any], object]], Callable[[Any], object]]:
         def decorate(function: Callable[[Any], object]) -> Callable[[Any], object]:
             self.subscription(topic, types, lambda received: function(received.message), depth=depth)
             return function
 
+        if function:
+            decorate(function)
         return decorate
 
     def service(
@@ -219,11 +226,13 @@ class FakeNode:
         self.parameters[name] = declared
         return declared
 
-    def every(self, period: float) -> Callable[[Action], Action]:
+    def every(self, period: float, function: Action | None = None) -> Callable[[Action], Action]:
         def decorate(function: Action) -> Action:
             self.loop.every(period, function)
             return function
 
+        if function:
+            decorate(function)
         return decorate
 
     def spin(self, seconds: float | None = None) -> None:

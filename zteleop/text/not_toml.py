@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 UNCLOSED = ("Illegal character '\\n'", 'Expected "\'"', "Unterminated string")
 """what the parser says of a quote that nothing closes"""
+BOOLEANS = ("true", "false", "yes", "no", "on", "off")
 CURLY = "\u201c\u201d\u201e\u2018\u2019"
 """which text programs make of quotes"""
 
@@ -34,6 +35,8 @@ def explained(error: str, text: str) -> NotToml:
         return NotToml(place, "a text ends with the quote that it begins with, found none")
     if odd := next((quote for quote in CURLY if quote in written), ""):
         return NotToml(place, f"a text stands in \" or ', found {odd}")
+    if value.lower() in BOOLEANS:
+        return NotToml(place, f"yes and no are true and false, in small letters, found {value}")
     if words == "Invalid value":
         return NotToml(place, f"{words} (text needs quotes)" if value else "nothing stands behind =")
     if re.match(r"[-+]?\d+,\d", value):

@@ -2,13 +2,14 @@
 
 import re
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
 from unit.bus.fakes import Outlet, Session, sample
 
+import zteleop
 from zteleop.bus import codec, presence, rclpy_names
 from zteleop.bus.heard import Heard
 from zteleop.bus.names import known_as
@@ -145,6 +146,30 @@ def test_a_queue_of_rclpy_is_told_where_it_belongs(node: Node) -> None:
     with pytest.raises(ConfigError, match=r"^publisher\(topic, type\) keeps no queue, found 10: who hears"):
         node.publisher("note", String, 10)
     node.subscription("note", String, print, 10)
+
+
+def test_a_function_that_is_given_as_in_rclpy_is_decorated_at_once(
+    node: Node, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    handed: list[Callable[[object], object]] = []
+    heard: list[object] = []
+    monkeypatch.setattr(node.membership, "deliver", lambda inbox, handler: handed.append(handler))
+    node.on("odom", Odometry, heard.append)
+    handed[0](SimpleNamespace(message="a message"))
+    assert heard == ["a message"]
+    node.every(1e-9, node.stop)
+    node.spin()
+
+
+def test_who_swaps_topic_and_type_is_told_so_before_all_else(node: Node) -> None:
+    with pytest.raises(ConfigError, match=r"expected a topic's name, such as 'cmd_vel', and then its type"):
+        node.publisher(Twist, "cmd_vel", 10)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("name", ["init", "spin", "ok"])
+def test_what_modules_of_ros_have_is_told_what_it_is_here(name: str) -> None:
+    with pytest.raises(AttributeError, match=rf"^zteleop has no '{name}': here it is .* \(docs/rclpy.md\)$"):
+        getattr(zteleop, name)
 
 
 def test_with_leaves_the_bus(session: Session) -> None:

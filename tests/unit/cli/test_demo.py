@@ -3,7 +3,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from zteleop.cli.demo import HIDDEN, Teller, Trip, _is_taken, ended, farewell
+from zteleop.cli import demo
+from zteleop.cli.demo import ALONE, HIDDEN, LOOK_EVERY, Hidden, Teller, Trip, _is_taken, ended, farewell
 from zteleop.messages import DriveStatus, Odometry
 from zteleop.testing import Clock
 
@@ -72,8 +73,20 @@ def test_the_next_step_is_written_as_this_one_was_typed(
 def test_a_demo_that_others_do_not_see_says_so_until_a_part_of_it_is_gone() -> None:
     lives, gone = SimpleNamespace(poll=lambda: None), SimpleNamespace(poll=lambda: 1)
     assert ended([lives, lives]).lines == ()  # type: ignore[list-item]
-    assert ended([lives, lives], hidden=True).lines == [("demo", HIDDEN)]  # type: ignore[list-item]
-    assert "its simulator ended" in ended([lives, gone], hidden=True).lines[0][1]  # type: ignore[list-item]
+    hidden = Hidden()
+    assert ended([lives, lives], hidden).lines == [("demo", HIDDEN)]  # type: ignore[list-item]
+    assert "its simulator ended" in ended([lives, gone], hidden).lines[0][1]  # type: ignore[list-item]
+
+
+@pytest.mark.parametrize(("is_there", "words"), [(True, HIDDEN), (False, ALONE)])
+def test_a_demo_says_when_whoever_hid_it_is_gone(
+    clock: Clock, monkeypatch: pytest.MonkeyPatch, is_there: bool, words: str
+) -> None:
+    monkeypatch.setattr(demo, "_is_taken", lambda endpoint: is_there)
+    hidden = Hidden()
+    assert hidden.words == HIDDEN
+    clock.pass_by(LOOK_EVERY)
+    assert hidden.words == words
 
 
 def test_a_door_is_taken_while_somebody_listens_there() -> None:

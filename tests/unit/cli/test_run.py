@@ -10,6 +10,7 @@ import pytest
 
 from zteleop import cli
 from zteleop.cli import _run
+from zteleop.drivers import DRIVERS
 from zteleop.errors import BusError, ConfigError, DeviceError, MessageError
 from zteleop.machine import signals
 
@@ -149,6 +150,14 @@ def test_a_wrong_argument_is_a_usage_error(capsys: pytest.CaptureFixture[str]) -
         ("list", "--colour", "no option --colour; zteleop list --help shows those there are"),
         ("list", "-- --robot", "--robot stands behind --, where all is taken as it is; write it before that"),
         ("list", "a b", "unrecognized arguments: a b"),
+        ("run", "", "the following arguments are required: FILE"),
+        (
+            "demo",
+            "--vehicle tnak",
+            "argument --vehicle: expected car or tank or create3 or create3_full, found tnak; "
+            "did you mean tank?",
+        ),
+        ("neutral", "--driver zebra", "argument --driver: expected {drivers}, found zebra"),
         ("keyboard", "--zebra wasd", "no option --zebra; zteleop keyboard --help shows those there are"),
     ],
 )
@@ -158,6 +167,7 @@ def test_an_option_that_is_nearly_one_is_asked_about(
     with pytest.raises(SystemExit) as ending:
         _run.run_verb(verb, "say something", typed.split())
     assert ending.value.code == 2
+    words = words.format(drivers=" or ".join(DRIVERS))
     assert capsys.readouterr().err.endswith(f"zteleop {verb}: error: {words}\n")
 
 

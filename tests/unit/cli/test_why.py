@@ -7,6 +7,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from zteleop.bus import presence
 from zteleop.bus.names import resolve
@@ -176,3 +177,36 @@ def test_a_robot_that_stands_where_its_wheels_turn_is_said_to(
     key = presence.endpoint_key(resolve("odom", "archangel"), "pub", "sim", ())
     desk.membership.session.tokens = lambda selector: {key}
     assert (why.STANDS in answer(desk)) is told
+
+
+def turns_in_vain(**about: Any) -> DriveStatus:
+    status = DriveStatus.zero()
+    status.state, status.why, status.wanted = "driving", "program drives", Twist.planar(0.0, 0.5)
+    return replace(status, **about)
+
+
+def test_a_robot_that_is_driven_and_stands_says_why_in_its_first_line() -> None:
+    words = "makes it +0.00 m/s +0.00 rad/s: a car that stands only turns its wheels"
+    layers = Why([Layer("limiter", words)])
+    first = answer(node(drive_status=turns_in_vain(), why=layers, watchdog=dog())).splitlines()[0]
+    assert first == f"archangel is driving: program drives, and it stands: the limiter {words}"
+    for status in (
+        turns_in_vain(applied=Twist.planar(0.1)),
+        turns_in_vain(wanted=Twist.planar()),
+        turns_in_vain(state="idle"),
+    ):
+        assert "stands" not in answer(node(drive_status=status, why=layers, watchdog=dog())).splitlines()[0]
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        ("program 00ff has been silent for 1 s", True),
+        ("program 00ff has not heard the robot for 1 s", False),
+    ],
+)
+def test_a_silence_may_be_a_link_or_a_program_that_speaks_seldom(words: str, told: bool) -> None:
+    status = replace(DriveStatus.zero(), state="link lost", why=words)
+    lines = answer(node(drive_status=status, why=LAYERS, watchdog=dog())).splitlines()
+    assert lines[0] == f"archangel hears its driver no more: {words}"
+    assert (f"  link      {why.SELDOM}" in lines) is told

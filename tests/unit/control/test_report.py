@@ -1,3 +1,5 @@
+from math import tan
+
 import pytest
 from unit.control.robot import FORWARD, TICK_US, Robot
 
@@ -67,6 +69,15 @@ def test_who_came_after_the_last_step_waits_only_where_the_other_goes_first(
     assert told == {second: words if waits else None}
 
 
+def test_whoever_waits_is_told_of_a_stop_and_not_of_who_drove_before() -> None:
+    robot = Robot()
+    robot.hold(FORWARD, 0.2)
+    waits = {12: Turned("program", "keyboard 0001 drives, with priority 90 over 50", 0.0, 0.0)}
+    assert refusals(robot.drive, waits, robot.now).refused[0].why.startswith("keyboard 0001 drives")
+    robot.stop(41)
+    assert refusals(robot.drive, waits, robot.now).refused[0].why == Refusal.AT_REST
+
+
 def test_status_tells_how_fast_it_may_be_and_why_no_faster() -> None:
     robot = Robot()
     robot.wait(1.0)
@@ -92,7 +103,10 @@ def test_status_names_the_stop_in_force_so_that_it_can_be_released() -> None:
 
 def test_a_vehicle_is_described_within_its_limits() -> None:
     car = to_vehicle(DriveSettings(limits=Limits(speed=1.0, turn=2.0)), TICK_US, ready=False)
-    assert (car.kind, car.max_speed, car.max_turn, car.ready) == ("ackermann", 1.0, 2.0, False)
+    assert (car.kind, car.max_speed, car.ready) == ("ackermann", 1.0, False)
+    assert car.max_turn == pytest.approx(1.0 * tan(0.4) / 0.25), "as fast as it turns at that speed"
+    slow = to_vehicle(DriveSettings(limits=Limits(turn=2.0)), TICK_US)
+    assert slow.max_turn == 2.0
     assert [(c.name, c.neutral_ticks) for c in car.channels] == [("throttle", 370), ("steering", 375)]
     servos = {"left": Servo(channel=0), "right": Servo(channel=1)}
     tank = to_vehicle(DriveSettings(mixer=Differential(), servos=servos), TICK_US)

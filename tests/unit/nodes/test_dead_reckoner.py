@@ -21,7 +21,7 @@ from zteleop.messages import (
     Vector3,
     WheelTicks,
 )
-from zteleop.nodes.dead_reckoner import ENCODERS_SILENT, SILENT, DeadReckoner
+from zteleop.nodes.dead_reckoner import ENCODERS_SILENT, HEARD_WITHIN, SILENT, DeadReckoner
 from zteleop.testing import FakeNode
 
 PERIOD = TOPICS["odom"].every
@@ -32,6 +32,7 @@ TOLD, TICKS, COMPASS = (
 )
 HEADER, NO_VECTOR = Header(Time(1, 0), "imu"), Vector3(0.0, 0.0, 0.0)
 ZEROS = [0.0] * 9
+GONE, NOBODY = "robot archangel is not heard", "no actuator is heard here"
 
 
 def imu(turned: Quaternion, covariance: list[float] = ZEROS) -> Imu:
@@ -51,6 +52,10 @@ class Reckoned:
             status = SimpleNamespace(applied=Twist.planar(linear, angular))
             self.node.hear("drive_status", status)  # type: ignore[arg-type]
             self.step()
+
+    def stand(self, seconds: float = PERIOD) -> None:
+        """Let it hear that it stands."""
+        self.drive(0.0, 0.0, seconds)
 
     def step(self, times: int = 1) -> None:
         for _ in range(times):
@@ -99,19 +104,32 @@ def test_a_car_that_stands_does_not_turn(robot: Reckoned) -> None:
 
 
 def test_an_estimate_is_marked_as_one_that_drifts(robot: Reckoned) -> None:
-    robot.step()
+    robot.stand()
     first = robot.odom.pose.covariance[0]
     robot.drive(0.5, 0.0, 2.0)
     assert 0.0 < first < robot.odom.pose.covariance[0]
 
 
-def test_a_robot_that_is_not_heard_stands(robot: Reckoned) -> None:
+def test_of_a_robot_that_is_not_heard_nobody_says_where_it_is_and_that_is_told(robot: Reckoned) -> None:
     robot.drive(0.5, 0.0, 1.0)
     robot.step(round(SILENT / PERIOD) + 1)
-    before = robot.pose
+    before, said = robot.pose, robot.node.said["odom"].messages
+    count = len(said)
     robot.step(20)
+    assert len(said) == count
+    assert robot.node.warnings == [f"{GONE} any more, and where it is not said; {NOBODY}"]
+    robot.stand()
+    assert robot.node.infos == ["robot archangel is heard"]
     assert robot.pose == before
     assert robot.odom.twist.twist == Twist.zero()
+
+
+def test_who_waits_for_a_robot_that_was_never_there_is_told_after_a_second(robot: Reckoned) -> None:
+    robot.step(round(HEARD_WITHIN / PERIOD))
+    assert robot.node.warnings == []
+    robot.step(10)
+    assert robot.node.warnings == [f"{GONE}, and where it is not said; {NOBODY}"]
+    assert robot.node.said["odom"].messages == []
 
 
 def test_encoders_count_while_they_speak(robot: Reckoned) -> None:
@@ -123,6 +141,7 @@ def test_encoders_count_while_they_speak(robot: Reckoned) -> None:
     assert robot.pose.heading == pytest.approx(1.0)
     assert robot.moving == pytest.approx((0.02 / PERIOD, 0.1 / PERIOD))
     robot.step(round(ENCODERS_SILENT / PERIOD) + 1)
+    robot.stand()
     assert robot.told == [TICKS, TOLD]
     x = robot.pose.x
     robot.count(8000, 8000)
@@ -151,12 +170,12 @@ def test_encoders_count_for_nothing_where_the_settings_say_so(node: FakeNode) ->
 
 def test_an_imu_says_the_heading_while_it_speaks(robot: Reckoned) -> None:
     robot.turn(2.0)
-    robot.step()
+    robot.stand()
     assert robot.pose.heading == pytest.approx(0.0), "it counts from where it begins"
     robot.turn(2.0 + pi / 2)
     robot.drive(0.5, 0.0, PERIOD)
     assert robot.pose.heading == pytest.approx(pi / 2)
-    robot.step(round(SILENT / PERIOD) + 1)
+    robot.stand(SILENT + 2 * PERIOD)
     assert robot.told == [f"{TOLD}{COMPASS}", TOLD]
     robot.drive(0.5, 0.5, 1.0)
     assert robot.pose.heading == pytest.approx(pi / 2 + 0.5)
@@ -165,9 +184,9 @@ def test_an_imu_says_the_heading_while_it_speaks(robot: Reckoned) -> None:
 def test_an_imu_counts_for_nothing_where_the_settings_say_so(node: FakeNode) -> None:
     robot = Reckoned(node, OdometrySettings(imu=False))
     robot.turn(1.0)
-    robot.step()
+    robot.stand()
     robot.turn(2.0)
-    robot.step()
+    robot.stand()
     assert (robot.pose.heading, robot.told) == (0.0, [TOLD])
 
 
@@ -188,7 +207,7 @@ def test_what_nothing_drives_is_not_driven(robot: Reckoned, speed: float, turn: 
     before = robot.pose
     robot.drive(speed, turn, 1.0)
     assert robot.pose == before
-    assert robot.node.warnings[0].startswith("drive_status does not count: nothing drives at ")
+    assert robot.node.warnings[1].startswith("drive_status does not count: nothing drives at ")
 
 
 @pytest.mark.parametrize("size", [0.0, 1e308, 0.5])

@@ -30,6 +30,18 @@ def test_nothing_counts_down_where_the_link_was_lost(car):
     assert "idle      at rest: the link was lost" in shown
 
 
+def test_nothing_counts_down_for_whoever_is_not_obeyed(car):
+    held = {
+        "idle_left": 3.2,
+        "status": status(),
+        "command": Twist.planar(0.3),
+        "refused": "another drives",
+    }
+    for ours, words in ((False, "not yours to end: you are not obeyed"), (True, "neutral in 3.2 s")):
+        shown = texts(readings(dashboard("step", car, ours=ours, **held), 80, True))
+        assert f"idle      {words}" in shown
+
+
 def test_a_place_that_is_told_no_more_is_said_to_be(car):
     for lost in (True, False):
         shown = texts(readings(dashboard("step", car, status=status(), odom_lost=lost), 80, True))
