@@ -10,7 +10,7 @@ from PIL import Image
 from playwright.sync_api import Browser, Page, sync_playwright
 
 FOLDER = Path(__file__).parent
-DESKTOP, HALF, PHONE = (1280, 760), (1180, 820), (390, 844)
+DESKTOP, TABLET, HALF, PHONE = (1440, 900), (820, 1180), (1180, 820), (390, 844)
 GAP = 16
 DRIVES = 1500
 """ms before each picture"""
@@ -22,7 +22,8 @@ LINES = ("twist.twist.linear.x", "twist.twist.angular.z")
 def main() -> None:
     with sync_playwright() as player:
         browser = player.chromium.launch(executable_path=shutil.which("chromium"), args=["--no-sandbox"])
-        beside("web.png", [shoot(browser, DESKTOP, "dark"), shoot(browser, PHONE, "light")])
+        three = ((DESKTOP, "dark"), (TABLET, "dark"), (PHONE, "light"))
+        beside("web.png", [shoot(browser, size, colours) for size, colours in three])
         beside("web-bus.png", [shoot(browser, HALF, "light", lines), shoot(browser, HALF, "dark", graph)])
         browser.close()
 

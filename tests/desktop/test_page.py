@@ -10,6 +10,8 @@ from playwright.sync_api import Browser, expect
 from processes import Process
 from rig import NEUTRAL, Rig, until
 
+from zteleop.messages import HazardDetection, HazardDetectionVector, Header, InterfaceButtons, Time
+
 pytestmark = pytest.mark.skipif(not CHROMIUM, reason="not here: chromium (Debian: chromium)")
 STEERING, THROTTLE = 0, 1
 WATCH = """() => {
@@ -228,6 +230,44 @@ def test_a_parameter_is_changed_by_a_slider_and_the_robot_has_the_last_word(
         rests(rig)
         speed.evaluate(SLIDE, most)
         expect(shown).to_have_value(most)
+
+
+def test_what_the_robot_says_in_words_is_kept_line_by_line(
+    rig: Rig, browser: Browser, server: Process
+) -> None:
+    node = rig.node("nose")
+    with opened(browser, server) as page:
+        page.locator("#tab-log").click()
+        page.keyboard.down("KeyW")
+        drives(rig)
+        page.keyboard.up("KeyW")
+        rests(rig)
+        expect(page.locator("#log tr", has_text="driving: web").first).to_be_visible()
+        for number in range(8):
+            node.log.info(f"smells {number} roses")
+        node.log.warn("smells smoke")
+        expect(page.locator("#log tr").first).to_contain_text("smells smoke")
+        expect(page.locator("#log tr", has_text="roses")).to_have_count(8)
+        page.get_by_label("warnings only").check()
+        expect(page.locator("#log tr", has_text="roses").first).to_be_hidden()
+        expect(page.locator("#log tr", has_text="smoke")).to_be_visible()
+        expect(page.locator("#link")).to_contain_text("of 20 beats a second come here")
+
+
+def test_what_a_robot_feels_is_told_where_it_says_so(rig: Rig, browser: Browser, server: Process) -> None:
+    node = rig.node("skin")
+    header = Header(Time(0, 0), "bump_front_left")
+    with opened(browser, server) as page:
+        expect(page.locator("#dangers")).to_be_hidden()
+        dangers = node.publisher("hazard_detection", HazardDetectionVector)
+        dangers.publish(HazardDetectionVector(header, [HazardDetection(header, 1)]))
+        expect(page.locator("#dangers")).to_have_text("bump front left")
+        dangers.publish(HazardDetectionVector(header, []))
+        expect(page.locator("#dangers")).to_have_text("none")
+        buttons = InterfaceButtons.zero()
+        buttons.button_1.is_pressed = True
+        node.publisher("interface_buttons", InterfaceButtons).publish(buttons)
+        expect(page.locator("#buttons")).to_have_text("button 1")
 
 
 def test_all_robots_are_a_table_with_who_operates_them(rig: Rig, browser: Browser, server: Process) -> None:

@@ -20,6 +20,8 @@ from zteleop.messages import CompressedImage
 
 DEPTH = 100
 """messages that wait for this process; of a flood the oldest are lost"""
+KEPT = {"log": 50}
+"""of which topics, and how many, words wait beside each other: a newer one says nothing of those before"""
 LARGEST = 2**20
 """bytes of a message that a page is told"""
 PICTURE = codec.encoding_of(CompressedImage)
@@ -32,6 +34,7 @@ class Watched(Struct):
     ring: Ring
     delivery: Delivery
     pages: dict[str, Slots]
+    passed: int = 0
 
 
 class Watching:
@@ -80,8 +83,10 @@ class Watching:
 
     def _pass_on(self, topic: str, frame: Frame) -> None:
         if watched := self._topics.get(topic):
+            watched.passed += 1
+            place = f"{topic} {watched.passed % KEPT[topic]}" if topic in KEPT else topic
             for slots in watched.pages.values():
-                slots.put(topic, frame)
+                slots.put(place, frame)
 
 
 class _Inbox:

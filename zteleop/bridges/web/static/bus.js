@@ -31,6 +31,7 @@ export class Bus {
     /** @type {string[]} */
     this.topics = ["beat"];
     this.beat = { epoch: 0, time: 0 };
+    this.beats = 0;
     this.seq = 0;
     this.last = 0;
     setInterval(() => this.sayHeld(), HELD_EVERY);
@@ -59,8 +60,18 @@ export class Bus {
 
   /** @param {Word} word */
   take(word) {
-    if (word.is === "heard" && word.topic === "beat") this.beat = word.message;
+    if (word.is === "heard" && word.topic === "beat") {
+      this.beat = word.message;
+      this.beats += 1;
+    }
     this.hear(word);
+  }
+
+  /** @returns {number} how many beats were heard since this was asked last */
+  takeBeats() {
+    const beats = this.beats;
+    this.beats = 0;
+    return beats;
   }
 
   /** @param {string[]} topics all that is to be heard from now on; the beat always is */

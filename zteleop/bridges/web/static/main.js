@@ -1,10 +1,12 @@
 // @ts-check
 /** The page: what is heard goes to where it is shown, what is pressed to the bus. */
 
+import * as body from "./body.js";
 import { Bus } from "./bus.js";
 import { Eye } from "./eye.js";
 import { Graph } from "./graph.js";
 import { Held, touch } from "./held.js";
+import { Log } from "./log.js";
 import { Parameters } from "./parameters.js";
 import { Phone } from "./phone.js";
 import { Plot, save } from "./plot.js";
@@ -15,7 +17,8 @@ import { TOKEN } from "./token.js";
 import { Top } from "./top.js";
 import { Topics } from "./topics.js";
 
-const TOPICS = ["drive_status", "vehicle", "odom", "scene", "battery_state", "watchdog", "camera/image/compressed"];
+const TOPICS = ["drive_status", "vehicle", "odom", "scene", "battery_state", "camera/image/compressed", "hazard_detection", "interface_buttons", "log"];
+const BEATS = 20; // a second, of a robot that is heard without loss
 const SILENT = 500; // ms without a status after which it is not so any more
 const SOON = 600; // ms in which a robot that is there has answered
 
@@ -41,7 +44,7 @@ const twisted = (twist) => `${signed(twist.linear.x)} m/s  ${signed(twist.angula
 const held = new Held(document, () => bus.sayHeld());
 const phone = new Phone();
 const view = new Top(at("top"));
-const known = { you: "", robot: "", holder: "", obeyed: false, refused: "", vehicle: /** @type {any} */ (null), heard: 0, since: 0, met: false, x: 0, y: 0 };
+const known = { you: "", robot: "", holder: "", obeyed: false, refused: "", vehicle: /** @type {any} */ (null), latency: 0, heard: 0, since: 0, met: false, x: 0, y: 0 };
 const eye = new Eye(at("eye"), (words) => show("camera", words));
 const bus = new Bus(TOKEN, () => stick(), hear, (picture) => eye.see(picture), connected);
 bus.topics.push(...TOPICS);
@@ -51,6 +54,7 @@ const graph = new Graph(/** @type {any} */ (at("graph")), (topic) => {
   rooms.enter("topics");
   topics.choose(topic);
 });
+const log = new Log(at("log"), /** @type {HTMLInputElement} */ (at("log-warnings")));
 const parameters = new Parameters(at("room-parameters"), (node, name, value) => bus.say({ is: "set", node, name, value }));
 const rooms = new Rooms(at("rooms"), look);
 
@@ -164,6 +168,26 @@ function heard(topic, message) {
   else if (topic === "vehicle") vehicle(message);
   else if (topic === "scene") scene(message.data);
   else if (topic === "battery_state") battery(message);
+  else if (topic === "hazard_detection") feel("dangers", body.dangers(message));
+  else if (topic === "interface_buttons") feel("buttons", body.buttons(message));
+  else if (topic === "log") log.hear(message);
+}
+
+/**
+ * @param {string} what
+ * @param {string} words
+ */
+function feel(what, words) {
+  show(what, words);
+  const row = at(what).parentElement;
+  if (row) row.hidden = false;
+}
+
+/** Say how old commands are when the robot hears them, there and back, and how much of what it says comes here. */
+function link() {
+  const beats = Math.min(bus.takeBeats(), BEATS);
+  const age = known.latency ? `commands are ${(1000 * known.latency).toFixed(0)} ms old, there and back; ` : "";
+  show("link", known.heard ? `${age}${beats} of ${BEATS} beats a second come here` : "-");
 }
 
 /** @param {any} said zteleop_msgs/msg/DriveStatus */
@@ -175,7 +199,7 @@ function status(said) {
   show("asked", twisted(said.wanted));
   show("allowed", twisted(said.applied) + (said.slowed ? `, at most ${said.max_speed.toFixed(2)} m/s: ${said.slowed}` : ""));
   show("out", said.pulses.map((/** @type {any} */ p) => `${p.name} ${p.duty_ticks} (${p.pulse_us.toFixed(0)} us)`).join(", ") || "-");
-  show("link", said.latency ? `commands arrive within ${(1000 * said.latency).toFixed(0)} ms` : "-");
+  known.latency = said.latency;
   at("release").hidden = !said.stops.length;
   for (const pulse of said.pulses)
     if (pulse.name === "steering" && known.vehicle) view.wheels = pulse.fraction * known.vehicle.max_steering_angle;
@@ -266,6 +290,7 @@ at("hand-over").addEventListener("click", () => bus.wish("hand over"));
 at("plot-save").addEventListener("click", () => save("zteleop.csv", plot.csv()));
 touch(at("stick"), held);
 tilt(at("tilt"), held);
+setInterval(link, 1000);
 setInterval(() => {
   if (known.heard && performance.now() - known.heard > SILENT) {
     known.heard = 0;
