@@ -53,9 +53,9 @@ LOADED = """() => {
 def main() -> None:
     presses, seconds = (20, 3.0) if is_quick(__doc__) else (200, 20.0)
     with Robot() as robot, tempfile.TemporaryDirectory(prefix="zteleop-page-") as folder:
+        server, address, start = serve(robot)  # before what starts beside it
         robot.start("sim", "--connect", robot.endpoint, "--scene", "classroom")
         robot.start("camera", "test", "--connect", robot.endpoint)
-        server, address, start = serve(robot)
         with sync_playwright() as player:
             browser = player.chromium.launch(
                 executable_path=shutil.which("chromium"),

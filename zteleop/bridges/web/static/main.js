@@ -186,8 +186,8 @@ function feel(what, words) {
 /** Say how old commands are when the robot hears them, there and back, and how much of what it says comes here. */
 function link() {
   const beats = Math.min(bus.takeBeats(), BEATS);
-  const age = known.latency ? `commands are ${(1000 * known.latency).toFixed(0)} ms old, there and back; ` : "";
-  show("link", known.heard ? `${age}${beats} of ${BEATS} beats a second come here` : "-");
+  const age = known.latency ? `${(1000 * known.latency).toFixed(0)} ms there and back; ` : "";
+  show("link", known.heard ? `${age}${beats} of ${BEATS} beats a second` : "-");
 }
 
 /** @param {any} said zteleop_msgs/msg/DriveStatus */
