@@ -238,11 +238,6 @@ def test_what_the_robot_says_in_words_is_kept_line_by_line(
     node = rig.node("nose")
     with opened(browser, server) as page:
         page.locator("#tab-log").click()
-        page.keyboard.down("KeyW")
-        drives(rig)
-        page.keyboard.up("KeyW")
-        rests(rig)
-        expect(page.locator("#log tr", has_text="driving: web").first).to_be_visible()
         for number in range(8):
             node.log.info(f"smells {number} roses")
         node.log.warn("smells smoke")
