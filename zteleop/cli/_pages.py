@@ -100,7 +100,7 @@ def _tell_the_room(address: str, is_secure: bool) -> None:
         segno.make(address, error="l").terminal(compact=True, border=2)
     if not is_secure:
         words = "whoever shares this network can read the address along; --tls-cert keeps it secret"
-        print(f"zteleop web: {words}", file=sys.stderr, flush=True)
+        print(f"zteleop: {words}", file=sys.stderr, flush=True)
 
 
 def port(text: str) -> int:
