@@ -15,10 +15,12 @@ from pathlib import Path
 import pytest
 from PIL import Image
 from processes import Process, descendants
-from rig import Rig, every, hear, until
+from rig import Rig, every, free_port, hear, until
 
+from zteleop.bus.node_parameters import NodeParameters
 from zteleop.chaos.cable import Cable
-from zteleop.messages import CompressedImage
+from zteleop.interfaces.parameters import from_python
+from zteleop.messages import CompressedImage, Parameter
 
 TOPIC = "camera/image/compressed"
 needs_ffmpeg = pytest.mark.skipif(not shutil.which("ffmpeg"), reason="not here: ffmpeg (Debian: ffmpeg)")
@@ -118,8 +120,9 @@ def test_without_a_camera_it_says_what_there_is_instead(rig: Rig, words: list[st
 
 def test_two_cameras_of_one_robot_are_one_too_many(rig: Rig) -> None:
     pi(rig, GIVES)
-    camera(rig)
-    second = rig.result("camera", *rig.bus_options())
+    where = f"tcp/127.0.0.1:{free_port()}"
+    camera(rig, "--listen", where)
+    second = rig.result("camera", *rig.bus_options(), "--connect", where)
     assert second.returncode == 1
     assert re.search(r"camera on \S+ says what the camera of bench sees already; end that", second.stderr)
 
@@ -127,15 +130,18 @@ def test_two_cameras_of_one_robot_are_one_too_many(rig: Rig) -> None:
 def test_whoever_watches_makes_it_slower_and_another_quality_begins_it_anew(rig: Rig) -> None:
     pi(rig, GIVES)
     process = camera(rig, "--rate", "60")
-    pictures = rig.node().subscription(TOPIC, CompressedImage, depth=100)
-    assert rig.result("param", "set", "camera", "rate", "0.5", *rig.bus_options()).returncode == 0
+    node = rig.node()
+    pictures = node.subscription(TOPIC, CompressedImage, depth=100)
+    hear(pictures, lambda said: True, "a picture")
+    parameters = NodeParameters(node.membership.session, rig.robot, "camera")  # by a link that is there
+    assert parameters.set([Parameter("rate", from_python(0.5))])[0].successful
     hear(pictures, lambda said: True, "a picture")
     list(pictures.take())
     stamps = [hear(pictures, lambda said: True, "a picture").header.stamp for _ in range(3)]
     seconds = [stamp.sec + stamp.nanosec * 1e-9 for stamp in stamps]
     assert all(after - before > 1.5 for before, after in pairwise(seconds))
     before = descendants(process.process.pid)
-    assert rig.result("param", "set", "camera", "quality", "30", *rig.bus_options()).returncode == 0
+    assert parameters.set([Parameter("quality", from_python(30))])[0].successful
     until(lambda: before != descendants(process.process.pid), "another rpicam-vid")
 
 
