@@ -50,11 +50,15 @@ class Desk:
         self.program = subprocess.Popen(command, env=self._environment, cwd=rig.folder, **QUIET)
 
     def focus(self) -> None:
-        """Wait for the window; one that is not on the screen yet cannot have the focus."""
-        self._do("search", "--sync", "--onlyvisible", "--class", CLASS, "windowfocus", "--sync")
+        """Wait for the window; one that is not on the screen yet, or is gone again, cannot have the focus."""
+        words = ("search", "--sync", "--onlyvisible", "--class", CLASS, "windowfocus", "--sync")
+        until(lambda: self._try(*words), "a window with the focus")
 
     def _do(self, *words: str) -> None:
-        subprocess.run(["xdotool", *words], env=self._environment, check=True, timeout=60, **QUIET)
+        assert self._try(*words), words
+
+    def _try(self, *words: str) -> bool:
+        return not subprocess.run(["xdotool", *words], env=self._environment, timeout=60, **QUIET).returncode
 
     def hold(self, *keys: str) -> None:
         self._do("keydown", *keys)
