@@ -142,6 +142,9 @@ def test_nothing_turns_before_the_wheels_are_up_and_whoever_leaves_writes_nothin
         page.get_by_role("button", name="wheels up").click()
         sitting = Sitting(rig, page)
         sitting.turn(THROTTLE, NEUTRAL[THROTTLE] + 3)
+        page.keyboard.press("Space")  # which presses no button that was clicked before
+        sitting.stands(THROTTLE, NEUTRAL[THROTTLE])
+        sitting.turn(THROTTLE, NEUTRAL[THROTTLE] + 3)
         with opened(browser, server, state="driving") as other:
             other.get_by_role("button", name="STOP").click()
             until(lambda: rig.ticks == NEUTRAL, "neutral")

@@ -114,7 +114,7 @@ class Membership:
         with self.handling():
             try:
                 self.loop.run(None if seconds is None else clock.now() + seconds)
-            except Exception as error:
+            except Exception as error:  # whoever wrote the handler reads of that, and not of this loop
                 error.__traceback__ = _of_program(error.__traceback__)
                 raise
 

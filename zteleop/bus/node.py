@@ -192,7 +192,8 @@ class Node:
                 self._miss_speakers(resolve(topic, self.robot))
             return function
 
-        if function:
+        if function is not None:
+            rclpy_names.expect_function(function)
             decorate(function)
         return decorate
 
@@ -275,7 +276,8 @@ class Node:
             self.membership.loop.every(period, function)
             return function
 
-        if function:
+        if function is not None:
+            rclpy_names.expect_function(function)
             decorate(function)
         return decorate
 

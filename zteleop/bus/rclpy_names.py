@@ -2,6 +2,8 @@
 
 from typing import NoReturn
 
+from zteleop.errors import ConfigError
+
 HERE = {
     "create_publisher": "publisher(topic, type)",
     "create_subscription": "subscription(topic, type, handler), or @node.on(topic, type)",
@@ -16,6 +18,12 @@ HERE = {
     "destroy_node": "close(), or the end of its `with`",
 }
 """rclpy's name -> what to write after `node.`"""
+
+
+def expect_function(function: object) -> None:
+    """Raise ConfigError for what is none, such as the length of a queue behind a topic and its type."""
+    if not callable(function):
+        raise ConfigError(f"expected a function, found {function!r:.40}; how many are kept is depth=")
 
 
 def miss(node: object, name: str) -> NoReturn:

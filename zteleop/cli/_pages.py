@@ -49,16 +49,25 @@ def place_of(arguments: argparse.Namespace) -> Place:
     Raises ConfigError for one that cannot be, DeviceError where what serves a page is not installed.
     """
     expect_websockets()
-    place = Place(
-        at=arguments.serve_at,
-        port=arguments.port,
-        hosts=arguments.host,
-        certificate=arguments.tls_cert,
-        key=arguments.tls_key,
-    )
+    place = _typed(arguments)
     if place.key and not place.certificate:
         raise ConfigError("a key alone is no identity: say --tls-cert as well")
     return place
+
+
+def is_typed(arguments: argparse.Namespace) -> bool:
+    """Say whether somebody typed where pages are to be served."""
+    return _typed(arguments) != Place()
+
+
+def _typed(arguments: argparse.Namespace) -> Place:
+    return Place(
+        at=arguments.serve_at,
+        port=arguments.port,
+        hosts=tuple(arguments.host),
+        certificate=arguments.tls_cert,
+        key=arguments.tls_key,
+    )
 
 
 def expect_websockets() -> None:

@@ -48,7 +48,7 @@ class Parser(argparse.ArgumentParser):
             message = (
                 f"{choice[1]}: expected {' or '.join(known)}, found {choice[2]}{_near(choice[2], known)}"
             )
-        where = WHERE.get(missing[0], "")
+        where = WHERE.get(next(iter(missing), ""), "")
         super().error(f"{message}; {where}" if where else message)
 
 

@@ -54,13 +54,13 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.to_donkeycar:
         export(file.settings, arguments.to_donkeycar, arguments.dry_run)
         return 0
+    changes: Changes | None = None
     if arguments.from_donkeycar:
-        print(
-            "\n".join(kept(file, dict(imported(file.settings, arguments.from_donkeycar)), arguments.dry_run))
-        )
-        return 0
-    if arguments.meter is not None:
-        print("\n".join(kept(file, dict(measured(file.settings, arguments.meter)), arguments.dry_run)))
+        changes = dict(imported(file.settings, arguments.from_donkeycar))
+    elif arguments.meter is not None:
+        changes = dict(measured(file.settings, arguments.meter))
+    if changes is not None:
+        print("\n".join(kept(file, changes, arguments.dry_run)))
         return 0
     settings = _options.with_typed(arguments, file.settings)
     if not settings.drive.mixer.takes_ticks:
@@ -82,6 +82,8 @@ def run(arguments: argparse.Namespace) -> int:
         return 0, kept(file, of_servos(found), arguments.dry_run)
 
     place = _pages.place_of(arguments) if arguments.web else None
+    if not place and _pages.is_typed(arguments):
+        raise ConfigError("where a page is served is for --web: say that as well")
     if place and arguments.trim:
         raise ConfigError("--trim drives on the floor, by the keys of a terminal: say it without --web")
     if place:

@@ -31,9 +31,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         ("--rate", int(FASTEST_RATE), 20, "pictures a second"),
         ("--quality", 100, 80, "where the camera makes no JPEGs itself"),
     ):
-        said, numbers = f"{words}, 1 to {most} ({default})", range(1, most + 1)
-        parser.add_argument(name, metavar="N", type=int, choices=numbers, default=default, help=said)
+        said = f"{words}, 1 to {most} ({default})"
+        parser.add_argument(name, metavar="N", type=partial(number, most), default=default, help=said)
     _options.add_parent(parser)
+
+
+def number(most: int, text: str) -> int:
+    """Return a whole number from 1 to the most."""
+    if not (text.isdecimal() and len(text) <= 3 and 1 <= int(text) <= most):
+        raise argparse.ArgumentTypeError(f"expected 1 to {most}, found {text}")
+    return int(text)
 
 
 def size(text: str) -> tuple[int, int]:

@@ -225,11 +225,18 @@ def await_robot(node: Node, children: Sequence[Process], log: Path) -> None:
 
 
 def _is_taken(endpoint: str) -> bool:
-    """Say whether somebody listens at an endpoint of this machine, by which others would find the demo."""
+    """Say whether somebody listens at an endpoint of this machine, by which others would find the demo.
+
+    Nobody is called for that: who listens need not answer, and whoever asks may be driving.
+    """
     host, _, port = endpoint.removeprefix("tcp/").rpartition(":")
     with socket.socket() as probe:
-        probe.settimeout(1.0)
-        return probe.connect_ex((host, int(port))) == 0
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # where one listened before is free
+        try:
+            probe.bind((host, int(port)))
+        except OSError:
+            return True
+        return False
 
 
 def _free_port() -> int:

@@ -18,14 +18,16 @@ EXAMPLES = (
     "zteleop why archangel",
 )
 PAST = " if it failed, zteleop blackbox on the robot tells how"
-IS = {"link lost": "hears its driver no more", "operator idle": "waits for an act", "fault": "has a fault"}
+IS = {
+    "link lost": "has lost touch with its driver",
+    "operator idle": "waits for an act",
+    "fault": "has a fault",
+}
 """states that are no word behind `is`"""
 UNPLACED = "nobody says where it is: zteleop sim moves a simulated robot; zteleop odometry is for any other"
 STANDS = "says that it stands: something is in its way, its motor does not turn yet, or it has just begun"
 SILENT = " has been silent for "
-SELDOM = (
-    "its link is lost, or it says too seldom what it wants: a program has to twice a second, better ten times"
-)
+SELDOM = "its link is lost, or it speaks too seldom: a program must speak twice a second, better ten times"
 """what silence may be: nobody who hears nothing can tell which"""
 ROLLS, STANDS_BELOW = 0.05, 0.01
 """m/s that are asked of wheels, and that nobody sees"""

@@ -33,7 +33,7 @@ class Feed:
             stderr=subprocess.PIPE,
             start_new_session=True,
         )
-        self._readers = [threading.Thread(target=run, daemon=True) for run in (self._read, self._listen)]
+        self._readers = [threading.Thread(target=run, daemon=True) for run in (self._listen, self._read)]
         for reader in self._readers:
             signals.start(reader)
 
@@ -60,6 +60,7 @@ class Feed:
             while piece := os.read(output.fileno(), PIECE):
                 self._take(piece)
         self._process.wait()
+        self._readers[0].join(ENDS_WITHIN)  # what it complained of comes before its end
         self._ended()
 
     def _listen(self) -> None:

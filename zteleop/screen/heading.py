@@ -66,7 +66,7 @@ def reasons(d: Dashboard, unicode: bool) -> list[tuple[str, str]]:
         others = f" ({printable(d.others, unicode)})" if d.others else ""
         start = f"start `zteleop actuator --robot {robot}`"
         if d.others and d.others.startswith("heard here"):
-            start = f"q, and `zteleop keyboard --robot NAME` drives one of those; or {start}"
+            start = f"q, and --robot NAME drives one of those; or {start}"
         return [(f"no actuator heard on robot {robot}{others}; {start}, or, if it moves, cut its power", "")]
     if d.seen.silence:
         was = f"{robot} has said nothing for {d.seen.silence:.1f} s; the last was: {status.state}"

@@ -161,6 +161,14 @@ def test_a_function_that_is_given_as_in_rclpy_is_decorated_at_once(
     node.spin()
 
 
+def test_the_length_of_a_queue_is_no_function(node: Node) -> None:
+    words = "expected a function, found 10; how many are kept is depth="
+    with pytest.raises(ConfigError, match=words):
+        node.on("odom", Odometry, 10)  # type: ignore[arg-type]
+    with pytest.raises(ConfigError, match=words):
+        node.every(0.1, 10)  # type: ignore[arg-type]
+
+
 def test_who_swaps_topic_and_type_is_told_so_before_all_else(node: Node) -> None:
     with pytest.raises(ConfigError, match=r"expected a topic's name, such as 'cmd_vel', and then its type"):
         node.publisher(Twist, "cmd_vel", 10)  # type: ignore[arg-type]

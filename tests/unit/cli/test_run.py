@@ -151,6 +151,13 @@ def test_a_wrong_argument_is_a_usage_error(capsys: pytest.CaptureFixture[str]) -
         ("list", "-- --robot", "--robot stands behind --, where all is taken as it is; write it before that"),
         ("list", "a b", "unrecognized arguments: a b"),
         ("run", "", "the following arguments are required: FILE"),
+        ("camera", "test --rate 61", "argument --rate: expected 1 to 60, found 61"),
+        ("camera", "test --quality x", "argument --quality: expected 1 to 100, found x"),
+        (
+            "camera",
+            "test --size 640",
+            "argument --size: expected WIDTHxHEIGHT in pixels, such as 640x480, found '640'",
+        ),
         (
             "demo",
             "--vehicle tnak",

@@ -1,4 +1,5 @@
 import argparse
+from pathlib import Path
 
 import pytest
 
@@ -23,6 +24,15 @@ def test_without_websockets_it_says_what_to_install(
     assert _run.run_verb("web", "serve a page", []) == 1
     words = "zteleop web: a page needs websockets, which is not installed; say: "
     assert capsys.readouterr().err == f"{words}{install('web')}\n"
+
+
+@pytest.mark.parametrize("typed", [["--port", "0"], ["--host", "pi.local"], ["--serve-at", "0.0.0.0"]])
+def test_a_place_for_pages_is_refused_where_none_is_served(
+    typed: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert _run.run_verb("calibrate", "find out", [*typed, "--robot", "abe"]) == 1
+    assert "where a page is served is for --web: say that as well" in capsys.readouterr().err
 
 
 def test_a_key_without_a_certificate_is_refused(capsys: pytest.CaptureFixture[str]) -> None:

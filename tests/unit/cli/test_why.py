@@ -208,5 +208,5 @@ def test_a_robot_that_is_driven_and_stands_says_why_in_its_first_line() -> None:
 def test_a_silence_may_be_a_link_or_a_program_that_speaks_seldom(words: str, told: bool) -> None:
     status = replace(DriveStatus.zero(), state="link lost", why=words)
     lines = answer(node(drive_status=status, why=LAYERS, watchdog=dog())).splitlines()
-    assert lines[0] == f"archangel hears its driver no more: {words}"
+    assert lines[0] == f"archangel has lost touch with its driver: {words}"
     assert (f"  link      {why.SELDOM}" in lines) is told

@@ -57,7 +57,10 @@ def test_a_robot_that_was_this_tasks_own_is_not_to_be_started_by_anybody():
 def test_without_an_actuator_it_says_which_robots_could_have_been_meant():
     board = dashboard("step", robot="archangle")._replace(others="heard here: archangel")
     shown = " ".join(texts(heading(board, 80, True))[1:])
-    assert "no actuator heard on robot archangle (heard here: archangel); q, and `zteleop keyboard" in shown
+    assert (
+        "no actuator heard on robot archangle (heard here: archangel); q, and --robot NAME drives one of "
+        "those; or start `zteleop actuator" in shown
+    )
 
 
 def test_before_a_robot_can_have_been_heard_it_says_that_it_listens():

@@ -123,7 +123,6 @@ function asks(word) {
   show("state", word.state);
   show("why", word.why);
   show("ticks", String(word.out[word.axis] ?? "-"));
-  at("idle").toggleAttribute("data-counts", word.idle_left !== null);
   /** @type {HTMLProgressElement} */ (at("idle")).value = word.idle_left || 0;
   at("release").hidden = word.state !== "stopped";
   const rows = word.found.map((/** @type {string} */ line) => {
@@ -145,8 +144,11 @@ function label(axis) {
 }
 
 at("begin").addEventListener("click", () => press("begin"));
-for (const button of document.querySelectorAll("[data-key]"))
-  button.addEventListener("click", () => press(/** @type {HTMLElement} */ (button).dataset.key || ""));
+for (const button of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("[data-key]")))
+  button.addEventListener("click", (event) => {
+    press(button.dataset.key || "");
+    if (event.detail) button.blur(); // else the space bar, which is neutral, would press it once more
+  });
 addEventListener("keydown", (event) => {
   const key = KEYS[event.code];
   if (!key || event.repeat || event.ctrlKey || event.altKey || event.metaKey) return;
